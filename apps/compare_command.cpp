@@ -1,0 +1,93 @@
+#include "apps/commands.h"
+#include "apps/output_file.h"
+#include "apps/progress.h"
+#include "bench/comparison.h"
+#include "bench/report.h"
+#include "scene/error.h"
+
+#include <charconv>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <unistd.h>
+
+namespace visorder {
+
+namespace {
+
+struct Arguments {
+    ComparisonOptions options;
+    std::vector<std::string> sorters;
+    std::string size = "512x512";
+    std::string json_file;
+    bool whole = false;
+};
+
+// A convex, a carved, a tie-ridden and a curvilinear scene, and a true cycle.
+const std::vector<std::string> default_scenes{"delaunay:200000", "carved:200000", "grid:150000", "fin:150000",
+                                              "pinwheel"};
+
+glm::ivec2 size_of(const std::string& text)
+{
+    glm::ivec2 size(0);
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.x);
+    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+        const auto height = std::from_chars(width.ptr + 1, end, size.y);
+        if (height.ec == std::errc() && height.ptr == end && size.x > 0 && size.y > 0)
+            return size;
+    }
+    throw InputError(fmt::format("--size takes WxH in pixels, such as 512x512, not \"{}\"", text));
+}
+
+int run(Arguments& arguments)
+{
+    ComparisonOptions& options = arguments.options;
+    options.size = size_of(arguments.size);
+    options.subdivide = !arguments.whole;
+    if (arguments.sorters != std::vector<std::string>{"all"})
+        options.sorters = arguments.sorters;
+    if (options.files.empty() && options.generated.empty())
+        options.generated = default_scenes;
+    Comparison comparison;
+    {
+        Progress progress;
+        comparison = compare(options, [&](const std::string& what) { progress.show(what); });
+    }
+    const Machine machine = this_machine();
+    if (!arguments.json_file.empty())
+        write_file(arguments.json_file, json(comparison, machine));
+    const int views = comparison.runs.empty() ? 0 : comparison.runs.back().view + 1;
+    fmt::print("{}, {} thread{}; {} views a scene: times are medians over them, counts are sums\n\n{}", machine.cpu,
+               machine.threads, machine.threads == 1 ? "" : "s", views, table(comparison, isatty(STDOUT_FILENO) != 0));
+    return comparison.failed() ? exit_wrong : exit_success;
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& app, Command& chosen)
+{
+    auto arguments = std::make_shared<Arguments>();
+    ComparisonOptions& options = arguments->options;
+    CLI::App* command =
+        app.add_subcommand("compare", "Run sorters on scenes: what each costs and what each gets wrong");
+    command->add_option("mesh", options.files, "Meshes: .vtu, .vtk, .ex2, .e, .exo, ...xyz.bin, .obj");
+    command->add_option("--scene", options.generated, "Generated scenes, NAME[:SIZE[:SEED]]")->delimiter(',');
+    command->add_option("--sorters", arguments->sorters, "Sorters, a,b,... (default: all)")->delimiter(',');
+    command->add_option("--views", options.views, "Random views of each scene")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10000));
+    command->add_flag("--hard", options.hard_views, "Also the views from which orders go wrong first");
+    command->add_option("--size", arguments->size, "Pixels of a view, WxH")->capture_default_str();
+    command->add_option("--seed", options.seed, "Of the random views")->capture_default_str();
+    command->add_option("--repeats", options.repeats, "Timed sorts a view, of which the median counts")
+        ->capture_default_str()
+        ->check(CLI::Range(5, 1000));
+    command->add_option("--scalar", options.scalar, "The array to take of each mesh (default: the format's)");
+    command->add_flag("--weld", options.weld, "Join points of meshes with exactly equal coordinates");
+    command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
+    command->add_option("--json", arguments->json_file, "Write every run to a file");
+    command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+} // namespace visorder

@@ -1,0 +1,74 @@
+#include "apps/commands.h"
+#include "apps/scene_source.h"
+#include "scene/scene.h"
+#include "sorting/registry.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <memory>
+
+namespace visorder {
+
+namespace {
+
+const char* yes_or_no(bool yes)
+{
+    return yes ? "yes" : "no";
+}
+
+int run(const SceneSource& source)
+{
+    SourcedMesh sourced = load(source);
+    const bool has_scalars = !sourced.mesh.scalars.empty();
+    const auto [low, high] = std::minmax_element(sourced.mesh.scalars.begin(), sourced.mesh.scalars.end());
+    const float least = has_scalars ? *low : 0, greatest = has_scalars ? *high : 0;
+    std::array<std::size_t, 5> of_shape{};
+    for (CellShape shape : sourced.mesh.shapes)
+        ++of_shape[static_cast<std::size_t>(shape)];
+    const Scene scene(std::move(sourced.mesh));
+
+    fmt::print("{}\n", sourced.name);
+    for (const std::string& note : sourced.notes)
+        fmt::print("  ({})\n", note);
+    fmt::print("  cells           {}", scene.cell_count());
+    for (std::size_t i = 0; i < of_shape.size(); ++i)
+        if (of_shape[i] > 0)
+            fmt::print("  {} {}", of_shape[i], name(static_cast<CellShape>(i)));
+    if (sourced.source_cells != scene.cell_count())
+        fmt::print("  (of {} cells, subdivided)", sourced.source_cells);
+    const Box& box = scene.bounds();
+    fmt::print("\n  points          {}\n", scene.mesh().points.size());
+    fmt::print("  bounds          {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", box.min.x, box.min.y, box.min.z,
+               box.max.x, box.max.y, box.max.z);
+    if (has_scalars)
+        fmt::print("  scalar          {} from {:.6g} to {:.6g}\n",
+                   sourced.scalar.empty() ? "(unnamed)" : sourced.scalar, least, greatest);
+    else
+        fmt::print("  scalar          none\n");
+    const Traits& traits = scene.traits();
+    fmt::print("  boundary        {} faces in {} components\n", scene.boundary().faces.size(),
+               scene.boundary().component_count);
+    fmt::print("  convex          {}\n", yes_or_no(traits.convex));
+    fmt::print("  Delaunay        {}\n", yes_or_no(traits.delaunay));
+    fmt::print("  face to face    {}\n", yes_or_no(traits.face_to_face));
+    fmt::print("  planar faces    {}\n", yes_or_no(traits.planar_faces));
+    fmt::print("  flat cells      {}\n", traits.flat_cells);
+    fmt::print("  inverted cells  {}\n", traits.inverted_cells);
+    fmt::print("  folded faces    {}\n", traits.folded_faces);
+    const AutoChoice choice = choose_sorter(scene);
+    fmt::print("  auto            {}: {}\n", choice.name, choice.reason);
+    return exit_success;
+}
+
+} // namespace
+
+void add_inspect_command(CLI::App& app, Command& chosen)
+{
+    CLI::App* command =
+        app.add_subcommand("inspect", "Counts, traits and boundary of a mesh, and which sorter suits it");
+    const std::shared_ptr<SceneSource> source = add_scene_source(*command);
+    command->callback([source, &chosen] { chosen = [source] { return run(*source); }; });
+}
+
+} // namespace visorder

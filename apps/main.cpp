@@ -1,0 +1,58 @@
+#include "apps/commands.h"
+#include "scene/error.h"
+#include "version.h"
+
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <memory>
+#include <new>
+#include <oneapi/tbb/global_control.h>
+#include <string>
+
+namespace {
+
+int bad_input(const std::string& message)
+{
+    fmt::print(stderr, "visorder: {}\n", message);
+    return visorder::exit_bad_input;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace visorder;
+    CLI::App app{"visorder: visibility orders of the cells of 3D scenes"};
+    app.set_version_flag("--version", std::string("visorder ") + version);
+    app.require_subcommand(1);
+    int threads = 0;
+    app.add_option("--threads", threads, "Threads to use (default: all)")->check(CLI::Range(1, 1024));
+    app.fallthrough();
+    Command command;
+    add_compare_command(app, command);
+    add_sort_command(app, command);
+    add_check_command(app, command);
+    add_inspect_command(app, command);
+    add_sorters_command(app, command);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        return bad_input(error.what());
+    }
+    try {
+        using oneapi::tbb::global_control;
+        std::unique_ptr<global_control> limit;
+        if (threads > 0)
+            limit = std::make_unique<global_control>(global_control::max_allowed_parallelism, threads);
+        return command();
+    } catch (const InputError& error) {
+        return bad_input(error.what());
+    } catch (const std::bad_alloc&) {
+        return bad_input("not enough memory");
+    } catch (const std::exception& error) {
+        return bad_input(error.what());
+    }
+}

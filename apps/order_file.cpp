@@ -1,0 +1,124 @@
+#include "apps/order_file.h"
+
+#include "apps/output_file.h"
+#include "scene/error.h"
+
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+
+namespace visorder {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the array is written as it lies in memory");
+
+// NumPy's format 1.0: magic, version, length of the header, a Python dictionary padded with blanks to a multiple of 64.
+constexpr std::string_view magic("\x93NUMPY\x01\x00", 8);
+
+std::string npy_of(std::span<const CellId> cells)
+{
+    std::string header = fmt::format("{{'descr': '<u4', 'fortran_order': False, 'shape': ({},), }}", cells.size());
+    const std::size_t prefix = magic.size() + 2;
+    header.append(63 - (prefix + header.size()) % 64, ' ');
+    header += '\n';
+    const auto length = static_cast<std::uint16_t>(header.size());
+    std::string bytes(magic);
+    bytes.append(reinterpret_cast<const char*>(&length), 2);
+    bytes += header;
+    bytes.append(reinterpret_cast<const char*>(cells.data()), cells.size_bytes());
+    return bytes;
+}
+
+std::string text_of(std::span<const CellId> cells)
+{
+    fmt::memory_buffer text;
+    for (CellId cell : cells)
+        fmt::format_to(std::back_inserter(text), "{}\n", cell);
+    return fmt::to_string(text);
+}
+
+[[noreturn]] void bad(const std::filesystem::path& file, const std::string& what)
+{
+    throw InputError(fmt::format("{}: {}", file.string(), what));
+}
+
+std::vector<CellId> cells_of_npy(const std::filesystem::path& file, const std::string& bytes)
+{
+    if (bytes.size() < 10 || bytes.compare(0, 6, magic.substr(0, 6)) != 0)
+        bad(file, "not a NumPy array");
+    const bool first_version = bytes[6] == 1;
+    const std::size_t prefix = first_version ? 10 : 12;
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 8, std::min<std::size_t>(first_version ? 2 : 4, bytes.size() - 8));
+    if (bytes.size() < prefix + length)
+        bad(file, "truncated");
+    const std::string header = bytes.substr(prefix, length);
+    std::smatch match;
+    if (!std::regex_search(header, match, std::regex("'descr': *'([<>|=])([iu])([1248])'")))
+        bad(file, "not an array of integers");
+    const bool swap = match[1] == ">";
+    const bool is_signed = match[2] == "i";
+    const auto width = static_cast<std::size_t>(match[3].str()[0] - '0');
+    if (!std::regex_search(header, match, std::regex("'shape': *\\(([0-9]+), *\\)")))
+        bad(file, "not an array of one dimension");
+    const std::size_t count = std::stoull(match[1]);
+    if (bytes.size() - prefix - length != count * width)
+        bad(file, "its length is not that of its shape");
+    std::vector<CellId> cells(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint64_t value = 0;
+        for (std::size_t k = 0; k < width; ++k) {
+            const char byte = bytes[prefix + length + i * width + (swap ? k : width - 1 - k)];
+            value = value << 8 | static_cast<unsigned char>(byte);
+        }
+        const bool negative = is_signed && (value >> (8 * width - 1)) != 0;
+        if (negative || value > 0xffffffffu)
+            bad(file, fmt::format("entry {} is no cell", i));
+        cells[i] = static_cast<CellId>(value);
+    }
+    return cells;
+}
+
+std::vector<CellId> cells_of_text(const std::filesystem::path& file, const std::string& text)
+{
+    std::vector<CellId> cells;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (std::size_t line = 1; at < end; ++line) {
+        CellId cell = 0;
+        const auto [next, error] = std::from_chars(at, end, cell);
+        const char* after = next < end && *next == '\r' ? next + 1 : next;
+        if (error != std::errc() || (after < end && *after != '\n'))
+            bad(file, fmt::format("line {} is not the number of a cell", line));
+        cells.push_back(cell);
+        at = after + 1;
+    }
+    return cells;
+}
+
+} // namespace
+
+void write_order(const std::filesystem::path& file, std::span<const CellId> cells)
+{
+    write_file(file, file.extension() == ".npy" ? npy_of(cells) : text_of(cells));
+}
+
+std::vector<CellId> read_order(const std::filesystem::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+        bad(file, "cannot be opened");
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    if (in.bad())
+        bad(file, "cannot be read");
+    return file.extension() == ".npy" ? cells_of_npy(file, bytes) : cells_of_text(file, bytes);
+}
+
+} // namespace visorder

@@ -1,0 +1,58 @@
+#include "apps/commands.h"
+#include "apps/order_file.h"
+#include "apps/scene_source.h"
+#include "apps/view_choice.h"
+#include "sorting/registry.h"
+
+#include <fmt/format.h>
+#include <memory>
+
+namespace visorder {
+
+namespace {
+
+struct Arguments {
+    std::shared_ptr<SceneSource> source;
+    std::shared_ptr<ViewChoice> view;
+    std::string sorter = "auto";
+    std::string output;
+    std::string map;
+};
+
+int run(const Arguments& arguments)
+{
+    SourcedMesh sourced = load(*arguments.source);
+    const std::vector<CellId> cell_of = std::move(sourced.cell_of);
+    const Scene scene(std::move(sourced.mesh));
+    const View view = view_of(*arguments.view, scene);
+    const auto sorter = make_sorter(arguments.sorter, scene);
+    Order order;
+    sorter->sort(view, order);
+    write_order(arguments.output, order.back_to_front);
+    if (!arguments.map.empty())
+        write_order(arguments.map, cell_of);
+    fmt::print("{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output, order.back_to_front.size(),
+               arguments.sorter, name(sorter->guarantee()), order.cycles.size());
+    if (sourced.source_cells != cell_of.size())
+        fmt::print("cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
+                   sourced.source_cells);
+    return exit_success;
+}
+
+} // namespace
+
+void add_sort_command(CLI::App& app, Command& chosen)
+{
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("sort", "Order the cells of a mesh as seen from an eye");
+    arguments->source = add_scene_source(*command);
+    arguments->view = add_view_choice(*command);
+    command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
+        ->capture_default_str();
+    command->add_option("-o,--output", arguments->output, "Where to: .npy, or text with a cell a line")->required();
+    command->add_option("--map", arguments->map,
+                        "Also write, for each tetrahedron, the cell of the mesh it is part of");
+    command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+} // namespace visorder

@@ -1,0 +1,56 @@
+#include "apps/view_choice.h"
+
+#include "scene/error.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace visorder {
+
+namespace {
+
+glm::dvec3 triple(const std::vector<double>& numbers, const char* option)
+{
+    if (numbers.size() != 3)
+        throw InputError(std::string(option) + " takes three numbers, X,Y,Z");
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+} // namespace
+
+std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command)
+{
+    auto choice = std::make_shared<ViewChoice>();
+    CLI::Option* eye =
+        command.add_option("--eye", choice->eye, "Position of the eye, X,Y,Z")->delimiter(',')->expected(1, 3);
+    command.add_option("--direction", choice->direction, "Direction towards a viewer infinitely far away, X,Y,Z")
+        ->delimiter(',')
+        ->expected(1, 3)
+        ->excludes(eye);
+    return choice;
+}
+
+View view_of(const ViewChoice& choice, const Scene& scene)
+{
+    const glm::dvec3 middle = scene.bounds().middle();
+    const glm::dvec3 half = scene.bounds().max * 0.5 - scene.bounds().min * 0.5;
+    const double length = glm::length(half);
+    const double radius = length > 0 && std::isfinite(length) ? length : 1;
+    if (!choice.direction.empty()) {
+        const glm::dvec3 direction = triple(choice.direction, "--direction");
+        View view{glm::dvec4(direction, 0), glm::dmat4(1), {512, 512}};
+        validate(view);
+        view.world_to_clip = parallel(direction, middle, radius).world_to_clip;
+        return view;
+    }
+    if (choice.eye.empty())
+        throw InputError("no view given: use --eye X,Y,Z or --direction X,Y,Z");
+    const glm::dvec3 eye = triple(choice.eye, "--eye");
+    View view{glm::dvec4(eye, 1), glm::dmat4(1), {512, 512}};
+    validate(view);
+    // An eye at the very middle looks down an axis.
+    view.world_to_clip = look_at(eye, eye == middle ? eye - glm::dvec3(0, 0, radius) : middle, radius).world_to_clip;
+    return view;
+}
+
+} // namespace visorder

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/view.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <vector>
+
+namespace visorder {
+
+/// Where to look from, as the command line says: --eye X,Y,Z or --direction X,Y,Z.
+struct ViewChoice {
+    std::vector<double> eye;
+    std::vector<double> direction; ///< towards the viewer
+};
+
+std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command);
+
+/// A view of the whole scene from there. Throws InputError where neither or both were given, or no such eye can be.
+View view_of(const ViewChoice& choice, const Scene& scene);
+
+} // namespace visorder

@@ -1,0 +1,206 @@
+#include "bench/comparison.h"
+
+#include "bench/generated_scene.h"
+#include "bench/views.h"
+#include "checking/order_checker.h"
+#include "scene/error.h"
+#include "scene/subdivision.h"
+#include "sorting/registry.h"
+#if defined(VISORDER_WITH_VTK)
+#include "vtk/read_mesh.h"
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <numeric>
+
+namespace visorder {
+
+namespace {
+
+using Progress = std::function<void(const std::string&)>;
+
+double now()
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Source {
+    std::string name;
+    std::function<Mesh(std::vector<std::string>& notes)> mesh;
+};
+
+std::vector<Source> sources_of(const ComparisonOptions& options)
+{
+    std::vector<Source> sources;
+    for (const std::filesystem::path& file : options.files) {
+#if defined(VISORDER_WITH_VTK)
+        const ReadOptions read{options.scalar, options.weld};
+        sources.push_back({file.filename().string(), [file, read](std::vector<std::string>& notes) {
+                               MeshFile result = read_mesh(file, read);
+                               notes = std::move(result.notes);
+                               return std::move(result.mesh);
+                           }});
+#else
+        throw InputError(fmt::format("{}: this build reads no files, for it is without VTK", file.string()));
+#endif
+    }
+    for (const std::string& specification : options.generated)
+        sources.push_back(
+            {specification, [specification](std::vector<std::string>&) { return generate(specification); }});
+    return sources;
+}
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+bool contains(std::span<const Structure> structures, Structure structure)
+{
+    return std::find(structures.begin(), structures.end(), structure) != structures.end();
+}
+
+// A sorter made for a scene, or why it cannot be.
+struct Candidate {
+    const SorterInfo* info;
+    std::unique_ptr<Sorter> sorter;
+    double make_s = 0; // without the structures that the scene derived meanwhile
+    std::string skipped;
+};
+
+Candidate make_candidate(const SorterInfo& info, const Scene& scene)
+{
+    Candidate candidate{&info, nullptr, 0, {}};
+    const std::size_t derived_before = scene.derived().size();
+    const double begin = now();
+    try {
+        candidate.sorter = make_sorter(info.name, scene);
+    } catch (const InputError& error) {
+        candidate.skipped = error.what();
+        return candidate;
+    }
+    candidate.make_s = now() - begin;
+    const auto derived = scene.derived();
+    for (std::size_t i = derived_before; i < derived.size(); ++i)
+        candidate.make_s -= derived[i].seconds;
+    candidate.make_s = std::max(candidate.make_s, 0.0);
+    return candidate;
+}
+
+void measure(const Scene& scene, Candidate& candidate, const NamedView& view, int repeats, Order& order, RunResult& run)
+{
+    Sorter& sorter = *candidate.sorter;
+    run.guarantee = sorter.guarantee();
+    sorter.sort(view.view, order); // warms the sorter and the caches
+    std::vector<double> seconds;
+    for (int i = 0; i < repeats; ++i) {
+        const double begin = now();
+        sorter.sort(view.view, order);
+        seconds.push_back(now() - begin);
+    }
+    run.sort_s = median(std::move(seconds));
+    run.prepare_s = candidate.make_s;
+    run.structure_bytes = sorter.bytes();
+    for (const StructureRecord& record : scene.derived())
+        if (contains(candidate.info->structures, record.structure)) {
+            run.prepare_s += record.seconds;
+            run.structure_bytes += record.bytes;
+        }
+    run.cycles = order.cycles.size();
+    run.cells_in_cycles = std::transform_reduce(order.cycles.begin(), order.cycles.end(), std::size_t{0}, std::plus<>(),
+                                                [](const auto& cycle) { return cycle.size(); });
+}
+
+void compare_on(const Source& source, const ComparisonOptions& options, const Progress& progress, Comparison& result)
+{
+    progress(fmt::format("{}: making the scene", source.name));
+    SceneResult description{source.name, 0, 0, false, false, 0, {}};
+    Mesh mesh = source.mesh(description.notes);
+    if (options.subdivide)
+        mesh = subdivide(mesh).mesh;
+    const Scene scene(std::move(mesh));
+    auto views = random_views(scene, options.views, options.seed, options.size);
+    if (options.hard_views)
+        for (NamedView& view : hard_views(scene, options.size))
+            views.push_back(std::move(view));
+
+    std::vector<Candidate> candidates;
+    for (const SorterInfo& info : sorters())
+        if (options.sorters.empty() ||
+            std::find(options.sorters.begin(), options.sorters.end(), info.name) != options.sorters.end()) {
+            progress(fmt::format("{}: preparing {}", source.name, info.name));
+            candidates.push_back(make_candidate(info, scene));
+        }
+
+    progress(fmt::format("{}: traits", source.name));
+    const OrderChecker checker(scene);
+    description.cells = scene.cell_count();
+    description.boundary_faces = scene.boundary().faces.size();
+    description.convex = scene.traits().convex;
+    description.delaunay = scene.traits().delaunay;
+
+    // View by view, so that the relations of each are found once; the runs are put sorter by sorter.
+    std::vector<std::vector<RunResult>> runs(candidates.size());
+    Order order;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        progress(fmt::format("{}: view {} of {}, relations", source.name, v + 1, views.size()));
+        const Relations relations = checker.relations_at(views[v].view.eye);
+        for (std::size_t c = 0; c < candidates.size(); ++c) {
+            Candidate& candidate = candidates[c];
+            RunResult& run = runs[c].emplace_back();
+            run.scene = source.name;
+            run.view = static_cast<int>(v);
+            run.view_name = views[v].name;
+            run.sorter = candidate.info->name;
+            run.skipped = candidate.skipped;
+            if (!candidate.skipped.empty())
+                continue;
+            progress(fmt::format("{}: view {} of {}, {}", source.name, v + 1, views.size(), candidate.info->name));
+            measure(scene, candidate, views[v], options.repeats, order, run);
+            const CheckResult checked = checker.check(relations, order);
+            run.relations = checked.relations;
+            run.violations = checked.violations;
+            run.violations_in_cycles = checked.violations_in_cycles;
+            description.overlapping_pairs = checked.overlapping.size();
+        }
+    }
+    result.scenes.push_back(std::move(description));
+    for (auto& of_sorter : runs)
+        std::move(of_sorter.begin(), of_sorter.end(), std::back_inserter(result.runs));
+}
+
+void require_known(const std::vector<std::string>& names)
+{
+    for (const std::string& name : names) {
+        const auto known = sorters();
+        if (std::none_of(known.begin(), known.end(), [&](const SorterInfo& info) { return name == info.name; })) {
+            std::string all;
+            for (const SorterInfo& info : known)
+                all += fmt::format("{}{}", all.empty() ? "" : ", ", info.name);
+            throw InputError(fmt::format("no sorter \"{}\"; there are: {}", name, all));
+        }
+    }
+}
+
+} // namespace
+
+bool Comparison::failed() const
+{
+    return std::any_of(runs.begin(), runs.end(), [](const RunResult& run) { return run.failed(); });
+}
+
+Comparison compare(const ComparisonOptions& options, const Progress& progress)
+{
+    require_known(options.sorters);
+    Comparison result;
+    for (const Source& source : sources_of(options))
+        compare_on(source, options, progress, result);
+    return result;
+}
+
+} // namespace visorder

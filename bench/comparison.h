@@ -1,0 +1,78 @@
+#pragma once
+
+#include "scene/mesh.h"
+#include "sorting/sorter.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace visorder {
+
+/// What to compare.
+struct ComparisonOptions {
+    std::vector<std::filesystem::path> files; ///< meshes to read
+    std::vector<std::string> generated;       ///< scenes to make, NAME[:SIZE[:SEED]]
+    std::vector<std::string> sorters;         ///< names; empty: all of the build
+    int views = 4;                            ///< random views of each scene
+    bool hard_views = false;                  ///< and those where orders go wrong first
+    glm::ivec2 size{512, 512};                ///< of the views, in pixels
+    std::uint64_t seed = 1;                   ///< of the views
+    int repeats = 5;                          ///< timed sorts a view, of which the median counts
+    bool subdivide = true;                    ///< zoo cells into tetrahedra
+    bool weld = false;                        ///< points of files with exactly equal coordinates
+    std::string scalar;                       ///< of files; empty: the format's default
+};
+
+/// A scene as the result format has it.
+struct SceneResult {
+    std::string name;
+    std::size_t cells;
+    std::size_t boundary_faces;
+    bool convex;
+    bool delaunay;
+    std::size_t overlapping_pairs; ///< of cells; in no order, and in no count of relations
+    std::vector<std::string> notes;
+};
+
+/// One sorter on one view of one scene. Image errors are none until frames are drawn.
+struct RunResult {
+    std::string scene;
+    int view;
+    std::string view_name;
+    std::string sorter;
+    Guarantee guarantee{};
+    double prepare_s = 0;
+    double sort_s = 0;
+    std::size_t structure_bytes = 0;
+    std::size_t relations = 0;
+    std::size_t violations = 0;           ///< outside of cycles
+    std::size_t violations_in_cycles = 0; ///< of relations that no order can satisfy all of
+    std::size_t cycles = 0;
+    std::size_t cells_in_cycles = 0;
+    std::optional<double> image_rmse;
+    std::optional<double> image_max;
+    std::string skipped; ///< why, where the sorter cannot take the scene; nothing else is measured then
+
+    /// Whether the sorter broke its promise.
+    bool failed() const { return skipped.empty() && guarantee == Guarantee::exact && violations > 0; }
+};
+
+struct Comparison {
+    std::vector<SceneResult> scenes;
+    std::vector<RunResult> runs; ///< scene by scene, sorter by sorter, view by view
+
+    bool failed() const;
+};
+
+/// Runs every sorter on every scene from every view: times it, and holds its orders against all relations. Scenes are
+/// made one after another and released. `progress` is told in a few words what is being done. Throws InputError for a
+/// file, a scene or a sorter that cannot be had.
+Comparison compare(const ComparisonOptions& options, const std::function<void(const std::string&)>& progress);
+
+} // namespace visorder

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "scene/mesh.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+namespace visorder {
+
+/// How many along each axis.
+using LatticeSize = std::array<std::size_t, 3>;
+
+/// A size with about `count` in all, about in these proportions, none below `least`.
+LatticeSize lattice_size(std::size_t count, const glm::dvec3& proportions, const LatticeSize& least);
+
+/// Appends the hexahedra between the points of a lattice, in VTK's vertex order where the three axes are right-handed:
+/// point (i, j, k) has the number i + points[0] * (j + points[1] * k). With `closed`, the last points along the second
+/// axis meet the first again.
+void add_hexahedra(Mesh& mesh, const LatticeSize& points, bool closed);
+
+/// The smallest count for which `size_of(count)`, which grows, is at least `size`; at most `size`.
+template <class SizeOf>
+std::size_t count_for(std::size_t size, SizeOf&& size_of)
+{
+    std::size_t low = 0;
+    std::size_t high = size;
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (size_of(static_cast<double>(middle)) < static_cast<double>(size))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+} // namespace visorder

@@ -1,0 +1,185 @@
+#include "bench/report.h"
+
+#include "version.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/task_arena.h>
+
+namespace visorder {
+
+namespace {
+
+// The runs of one sorter on one scene.
+struct Row {
+    const RunResult* first;
+    std::vector<double> sort_s;
+    std::size_t relations = 0;
+    std::size_t violations = 0;
+    std::size_t violations_in_cycles = 0;
+    std::size_t cycles = 0;
+    std::size_t cells_in_cycles = 0;
+    std::size_t bytes = 0;
+    double image_rmse = -1;
+    bool failed = false;
+};
+
+std::vector<Row> rows_of(const Comparison& comparison)
+{
+    std::vector<Row> rows;
+    for (const RunResult& run : comparison.runs) {
+        if (rows.empty() || rows.back().first->scene != run.scene || rows.back().first->sorter != run.sorter) {
+            rows.emplace_back();
+            rows.back().first = &run;
+        }
+        Row& row = rows.back();
+        row.sort_s.push_back(run.sort_s);
+        row.relations += run.relations;
+        row.violations += run.violations;
+        row.violations_in_cycles += run.violations_in_cycles;
+        row.cycles += run.cycles;
+        row.cells_in_cycles += run.cells_in_cycles;
+        row.bytes = std::max(row.bytes, run.structure_bytes);
+        row.image_rmse = std::max(row.image_rmse, run.image_rmse.value_or(-1));
+        row.failed = row.failed || run.failed();
+    }
+    return rows;
+}
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+std::string with_commas(std::size_t n)
+{
+    std::string digits = fmt::format("{}", n);
+    for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(static_cast<std::size_t>(at), ",");
+    return digits;
+}
+
+std::string seconds(double s)
+{
+    return s < 0.001 ? fmt::format("{:.1f} us", s * 1e6)
+           : s < 1   ? fmt::format("{:.2f} ms", s * 1e3)
+                     : fmt::format("{:.2f} s", s);
+}
+
+const SceneResult& scene_of(const Comparison& comparison, const std::string& name)
+{
+    return *std::find_if(comparison.scenes.begin(), comparison.scenes.end(),
+                         [&](const SceneResult& scene) { return scene.name == name; });
+}
+
+std::string traits_of(const SceneResult& scene)
+{
+    std::string text = scene.convex ? "convex" : "not convex";
+    if (scene.delaunay)
+        text += ", Delaunay";
+    if (scene.overlapping_pairs > 0)
+        text += fmt::format(", {} pairs of cells overlap", with_commas(scene.overlapping_pairs));
+    return text;
+}
+
+std::string line_of(const Row& row, std::size_t cells)
+{
+    const RunResult& run = *row.first;
+    if (!run.skipped.empty())
+        return fmt::format("  {:<16} skipped: {}", run.sorter, run.skipped);
+    const double sort_s = median(row.sort_s);
+    std::string cycles =
+        row.cycles == 0 ? "0" : fmt::format("{} ({} cells)", row.cycles, with_commas(row.cells_in_cycles));
+    if (row.violations_in_cycles > 0)
+        cycles += fmt::format(", {} broken in them", with_commas(row.violations_in_cycles));
+    return fmt::format("  {:<16} {:<11} {:>10} {:>10} {:>8.1f} {:>8.1f}  {:>11} of {:<13} {:>8}   {}", run.sorter,
+                       name(run.guarantee), seconds(run.prepare_s), seconds(sort_s),
+                       static_cast<double>(cells) / sort_s / 1e6, static_cast<double>(row.bytes) / 0x1p20,
+                       with_commas(row.violations), with_commas(row.relations),
+                       row.image_rmse < 0 ? "-" : fmt::format("{:.2e}", row.image_rmse), cycles);
+}
+
+template <class T>
+nlohmann::ordered_json or_null(const std::optional<T>& value)
+{
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+} // namespace
+
+Machine this_machine()
+{
+    Machine machine{"unknown", oneapi::tbb::this_task_arena::max_concurrency(), "none"};
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) {
+            machine.cpu = line.substr(line.find(':') + 2);
+            break;
+        }
+    return machine;
+}
+
+std::string table(const Comparison& comparison, bool colour)
+{
+    std::string text =
+        fmt::format("  {:<16} {:<11} {:>10} {:>10} {:>8} {:>8}  {:>11} of {:<13} {:>8}   {}\n", "sorter", "guarantee",
+                    "prepare", "sort", "Mcells/s", "MiB", "violations", "relations", "rmse", "cycles");
+    const SceneResult* scene = nullptr;
+    for (const Row& row : rows_of(comparison)) {
+        const SceneResult& of_row = scene_of(comparison, row.first->scene);
+        if (&of_row != scene) {
+            scene = &of_row;
+            text += fmt::format("\n{}: {} cells, {} boundary faces, {}\n", scene->name, with_commas(scene->cells),
+                                with_commas(scene->boundary_faces), traits_of(*scene));
+            for (const std::string& note : scene->notes)
+                text += fmt::format("  ({})\n", note);
+        }
+        const std::string line = line_of(row, scene->cells);
+        text += row.failed && colour ? fmt::format("\033[31m{}   BROKEN GUARANTEE\033[0m\n", line)
+                : row.failed         ? fmt::format("{}   BROKEN GUARANTEE\n", line)
+                                     : line + "\n";
+    }
+    return text;
+}
+
+std::string json(const Comparison& comparison, const Machine& machine)
+{
+    using Json = nlohmann::ordered_json;
+    Json document{
+        {"visorder", version},
+        {"machine", {{"cpu", machine.cpu}, {"threads", machine.threads}, {"gl_renderer", machine.gl_renderer}}},
+        {"scenes", Json::array()},
+        {"runs", Json::array()}};
+    for (const SceneResult& scene : comparison.scenes)
+        document["scenes"].push_back({{"name", scene.name},
+                                      {"cells", scene.cells},
+                                      {"boundary_faces", scene.boundary_faces},
+                                      {"convex", scene.convex},
+                                      {"delaunay", scene.delaunay},
+                                      {"overlapping_pairs", scene.overlapping_pairs}});
+    for (const RunResult& run : comparison.runs) {
+        Json entry{{"scene", run.scene}, {"view", run.view}, {"view_name", run.view_name}, {"sorter", run.sorter}};
+        if (!run.skipped.empty()) {
+            entry["skipped"] = run.skipped;
+        } else {
+            entry["guarantee"] = name(run.guarantee);
+            entry["prepare_s"] = run.prepare_s;
+            entry["sort_s"] = run.sort_s;
+            entry["structure_bytes"] = run.structure_bytes;
+            entry["relations"] = run.relations;
+            entry["violations"] = run.violations;
+            entry["violations_in_cycles"] = run.violations_in_cycles;
+            entry["cycles"] = run.cycles;
+            entry["cells_in_cycles"] = run.cells_in_cycles;
+            entry["image_rmse"] = or_null(run.image_rmse);
+            entry["image_max"] = or_null(run.image_max);
+        }
+        document["runs"].push_back(std::move(entry));
+    }
+    return document.dump(2) + "\n";
+}
+
+} // namespace visorder

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "bench/comparison.h"
+
+#include <string>
+
+namespace visorder {
+
+/// What the figures were measured on.
+struct Machine {
+    std::string cpu;
+    int threads;
+    std::string gl_renderer; ///< "none" where nothing was drawn
+};
+Machine this_machine();
+
+/// The comparison as a table, a line a sorter and scene: times are medians over views, counts are sums. `colour` marks
+/// broken guarantees in red for a terminal.
+std::string table(const Comparison& comparison, bool colour);
+
+/// The comparison in the project's result format: every run of every view. What was not measured is null.
+std::string json(const Comparison& comparison, const Machine& machine);
+
+} // namespace visorder

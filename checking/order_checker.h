@@ -1,0 +1,139 @@
+#pragma once
+
+#include "scene/large_array.h"
+#include "scene/scene.h"
+#include "sorting/relation.h"
+#include "sorting/sorter.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace visorder {
+
+struct CheckOptions {
+    std::size_t max_witnesses = 16;
+};
+
+/// A relation that an order does not satisfy, cells in the caller's numbering: `front` obstructs `back` but is painted
+/// before it.
+struct Violation {
+    CellId front;
+    CellId back;
+    glm::dvec3 witness; ///< where a ray from the eye that has passed through `front` enters `back`, rounded
+};
+
+/// What is wrong with an order. Cells in the caller's numbering.
+struct CheckResult {
+    std::size_t relations = 0; ///< distinct pairs (front, back), without those of cells that overlap in space
+    std::size_t violations = 0; ///< how many of the relations the order does not satisfy, outside of `unorderable` sets
+    std::size_t violations_in_cycles = 0; ///< and within them, where some relation must always go unsatisfied
+    std::vector<Violation> witnesses;     ///< the first of `violations`, ascending by front and back
+    /// Cells that overlap in space (a, b), a < b, ascending. No order of them exists; they count as no relation.
+    std::vector<std::pair<CellId, CellId>> overlapping;
+    /// Strongly connected sets of more than one cell under the relations, ascending as are the cells of each. No order
+    /// satisfies all relations within one.
+    std::vector<std::vector<CellId>> unorderable;
+
+    bool order_exists() const { return unorderable.empty(); }
+};
+
+/// Every relation that an order of a scene has to satisfy from one eye: made by OrderChecker::relations_at, to check any
+/// number of orders. Refers to the checker's Scene, which must outlive it; threads may share it.
+class Relations {
+public:
+    const glm::dvec4& eye() const { return eye_; }
+    /// Distinct pairs (front, back), without those of cells that overlap in space.
+    std::size_t count() const { return count_; }
+    /// Calls visit(front, back) once for each, in the inner numbering.
+    template <class Visit> void visit(Visit&& visit) const
+    {
+        visit_interior(0, scene_->cell_count(), visit);
+        for (const Relation& relation : boundary_)
+            visit(relation.front, relation.back);
+    }
+
+private:
+    friend class OrderChecker;
+
+    struct UnorderableSets {
+        std::vector<std::vector<CellId>> sets; // caller's numbering
+        std::vector<std::uint32_t> set_of;     // of inner cells: 1 + index into sets, or 0; empty if there are no sets
+    };
+    struct OnDemand {
+        std::atomic<bool> an_order_is_known{false};
+        Derived<UnorderableSets> unorderable;
+    };
+
+    Relations(const Scene& scene, const glm::dvec4& eye, const std::vector<std::pair<CellId, CellId>>& overlapping);
+
+    void evaluate_interior();
+    void evaluate_boundary(const std::vector<std::pair<CellId, CellId>>& overlapping);
+    UnorderableSets find_unorderable() const;
+    const UnorderableSets& unorderable() const;
+
+    // Relations across interior faces are kept at the cell with the lower number: bits of its exit faces, and, above, of
+    // its entry faces.
+    template <class Visit> void visit_interior(CellId begin, CellId end, Visit&& visit) const
+    {
+        for (CellId cell = begin; cell < end && !interior_.empty(); ++cell)
+            for (std::uint32_t bits = interior_[cell], face = 0; bits != 0; bits >>= 1, ++face)
+                if ((bits & 1u) != 0) {
+                    const CellId neighbour = adjacency_->row(cell)[face % 8];
+                    if (face < 8)
+                        visit(cell, neighbour);
+                    else
+                        visit(neighbour, cell);
+                }
+    }
+
+    const Scene* scene_;
+    const Adjacency* adjacency_; // none in a surface scene
+    glm::dvec4 eye_;
+    LargeArray<std::uint16_t> interior_; // empty in a surface scene
+    std::vector<Relation> boundary_;     // ascending
+    std::size_t count_ = 0;
+    std::vector<std::pair<CellId, CellId>> overlapping_; // caller's numbering
+    std::unique_ptr<OnDemand> on_demand_;
+};
+
+/// Holds orders of a scene's cells against all relations of its cells from an eye: across every interior face whose plane
+/// the eye is not in, and from the owner of every exit boundary face to the owner of every entry face that it covers in
+/// part. In a mesh whose cells meet face to face, or touch in any way without overlapping, an order is right if and only
+/// if it satisfies these (Williams 1992; Silva, Mitchell and Williams 1998). In a surface scene, the relations are all
+/// pairs of triangles of which one covers the other.
+///
+/// All decisions are exact, and none is shared with the sorters but the predicates themselves. Results do not depend on
+/// the number of threads. The Scene must outlive the checker; any number of threads may use one.
+class OrderChecker {
+public:
+    /// Throws InputError, naming a cell, for a scene with faces that are not planar.
+    explicit OrderChecker(const Scene& scene);
+
+    /// Throws InputError for an eye that is not finite or all zero.
+    Relations relations_at(const glm::dvec4& eye) const;
+
+    /// Throws InputError, naming a cell, for an order that does not list every cell exactly once.
+    CheckResult check(const Relations& relations, const Order& order, CheckOptions options = {}) const;
+
+    /// The same for one order.
+    CheckResult check(const glm::dvec4& eye, const Order& order, CheckOptions options = {}) const
+    {
+        return check(relations_at(eye), order, options);
+    }
+
+private:
+    LargeArray<std::uint32_t> positions(const Order& order) const;
+    glm::dvec3 witness(const Relations& relations, CellId front, CellId back) const;
+
+    const Scene& scene_;
+    LargeArray<CellId> inner_cells_; // of the caller's
+    Derived<std::vector<std::pair<CellId, CellId>>> overlapping_; // inner numbering, a < b, ascending
+};
+
+} // namespace visorder

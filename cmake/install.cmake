@@ -1,0 +1,30 @@
+# Installs the library with its headers, and what find_package(visorder) needs.
+include(CMakePackageConfigHelpers)
+
+set(visorder_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/visorder)
+
+# CGAL is headers only, but a static library leaves linking the numbers that CGAL computes with to the program.
+target_link_libraries(visorder PRIVATE $<INSTALL_INTERFACE:mpfr> $<INSTALL_INTERFACE:gmp>)
+
+install(TARGETS visorder EXPORT visorder-targets)
+install(EXPORT visorder-targets FILE visorderTargets.cmake NAMESPACE visorder:: DESTINATION ${visorder_package_dir})
+
+set(visorder_rooms scene sorting depth mpvo checking)
+if(VISORDER_WITH_VTK)
+  list(APPEND visorder_rooms vtk)
+endif()
+install(DIRECTORY ${visorder_rooms}
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/visorder
+  FILES_MATCHING PATTERN "*.h")
+install(FILES visorder.h ${PROJECT_BINARY_DIR}/generated/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/visorder)
+
+# For programs that take visorder into their build by add_subdirectory.
+configure_file(visorder.h generated/visorder.h COPYONLY)
+
+get_target_property(visorder_library_type visorder TYPE)
+configure_package_config_file(cmake/visorderConfig.cmake.in visorderConfig.cmake
+  INSTALL_DESTINATION ${visorder_package_dir})
+write_basic_package_version_file(visorderConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/visorderConfig.cmake ${PROJECT_BINARY_DIR}/visorderConfigVersion.cmake
+  DESTINATION ${visorder_package_dir})

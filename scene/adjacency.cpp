@@ -1,0 +1,275 @@
+#include "scene/adjacency.h"
+
+#include "scene/error.h"
+#include "scene/face_loop.h"
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <fmt/format.h>
+#include <mutex>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <optional>
+
+namespace visorder {
+
+namespace {
+
+using Range = oneapi::tbb::blocked_range<std::uint32_t>;
+
+// A face by its vertices in ascending order. Faces are grouped by the lowest one; `others` tells those of a group
+// apart.
+struct FaceKey {
+    PointId lowest;
+    std::array<PointId, 3> others; // unused places hold `no_point`
+};
+
+constexpr PointId no_point = 0xffffffffu;
+
+std::optional<FaceKey> face_key(const Mesh& mesh, CellId cell, int face, int least)
+{
+    FaceLoop loop = face_loop(mesh, cell, face);
+    if (loop.count < least)
+        return std::nullopt;
+    std::sort(loop.vertices.begin(), loop.vertices.begin() + loop.count);
+    FaceKey key{loop.vertices[0], {no_point, no_point, no_point}};
+    std::copy(loop.vertices.begin() + 1, loop.vertices.begin() + loop.count, key.others.begin());
+    return key;
+}
+
+std::optional<FaceKey> tetrahedron_face_key(const PointId* v, int face)
+{
+    constexpr std::array<std::array<int, 3>, 4> corners{{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 1}}};
+    const auto& [i, j, k] = corners[static_cast<std::size_t>(face)];
+    const PointId a = v[i], b = v[j], c = v[k];
+    const PointId low = std::min({a, b, c}), high = std::max({a, b, c});
+    // The middle one is what remains of the three; unsigned sums wrap and unwrap.
+    return FaceKey{low, {a + b + c - low - high, high, no_point}};
+}
+
+// Half faces (cell * row_length + face) grouped by the lowest vertex of their face.
+struct Groups {
+    LargeArray<std::uint32_t> begin; // of each point's group, and the end of the last
+    LargeArray<std::uint32_t> half_faces;
+};
+
+template <class Key>
+Groups group_half_faces(const Mesh& mesh, std::uint32_t row_length, Key&& key)
+{
+    const auto cells = static_cast<std::uint32_t>(mesh.cell_count());
+    Groups groups;
+    groups.begin.resize(mesh.points.size() + 1);
+    std::fill(groups.begin.begin(), groups.begin.end(), 0u);
+    const auto each_face = [&](auto&& visit) {
+        oneapi::tbb::parallel_for(Range(0, cells, 4096), [&](const Range& range) {
+            for (CellId cell = range.begin(); cell < range.end(); ++cell) {
+                if (is_collapsed(mesh, cell))
+                    continue;
+                const int faces = face_count(mesh.shapes[cell]);
+                for (int face = 0; face < faces; ++face)
+                    if (const auto k = key(cell, face))
+                        visit(k->lowest, cell * row_length + static_cast<std::uint32_t>(face));
+            }
+        });
+    };
+    const auto at = [&](PointId point) { return std::atomic_ref(groups.begin[point]); };
+    each_face([&](PointId lowest, std::uint32_t) { at(lowest).fetch_add(1, std::memory_order_relaxed); });
+    std::uint32_t end = 0;
+    for (std::uint32_t& count : groups.begin) {
+        end += count;
+        count = end;
+    }
+    groups.half_faces.resize(end);
+    // Filled from each group's end, so that its counter comes to rest on its beginning.
+    each_face([&](PointId lowest, std::uint32_t half_face) {
+        groups.half_faces[at(lowest).fetch_sub(1, std::memory_order_relaxed) - 1] = half_face;
+    });
+    return groups;
+}
+
+class SharedByThree {
+public:
+    void found(CellId a, CellId b, CellId c)
+    {
+        std::array<CellId, 3> cells{a, b, c};
+        std::sort(cells.begin(), cells.end());
+        const std::lock_guard lock(mutex_);
+        if (!lowest_ || cells < *lowest_)
+            lowest_ = cells;
+    }
+
+    void throw_if_any() const
+    {
+        if (lowest_)
+            throw InputError(fmt::format("cells {}, {} and {} share one face; at most two can", (*lowest_)[0],
+                                         (*lowest_)[1], (*lowest_)[2]));
+    }
+
+private:
+    std::mutex mutex_;
+    std::optional<std::array<CellId, 3>> lowest_;
+};
+
+struct Entry {
+    std::array<PointId, 3> others;
+    std::uint32_t half_face;
+};
+
+// The half faces of one group; `join` gets the two of every face that two share, `shared_by_three` three of one that
+// more do.
+class Matching {
+public:
+    void clear()
+    {
+        entries_.clear();
+        keys_.clear();
+    }
+    void add(const FaceKey& key, std::uint32_t half_face)
+    {
+        entries_.push_back({key.others, half_face});
+        keys_.push_back(std::uint64_t{key.others[0]} << 32 | key.others[1]);
+    }
+
+    template <class Join, class Shared>
+    void join_equal(Join&& join, Shared&& shared_by_three)
+    {
+        if (entries_.size() <= few)
+            join_by_comparing(join, shared_by_three);
+        else
+            join_by_sorting(join, shared_by_three);
+    }
+
+private:
+    // A point of a tetrahedral mesh is the lowest of some 26 half faces: comparing all pairs beats sorting them.
+    static constexpr std::size_t few = 64;
+
+    template <class Join, class Shared>
+    void join_by_comparing(Join&& join, Shared&& shared_by_three)
+    {
+        std::array<std::uint8_t, few> partner{}; // 1 + its index
+        for (std::size_t i = 1; i < entries_.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) {
+                if (keys_[k] != keys_[i] || entries_[k].others[2] != entries_[i].others[2])
+                    continue;
+                if (partner[k] != 0) {
+                    shared_by_three(entries_[k].half_face, entries_[partner[k] - 1u].half_face, entries_[i].half_face);
+                } else {
+                    partner[k] = static_cast<std::uint8_t>(i + 1);
+                    partner[i] = static_cast<std::uint8_t>(k + 1);
+                    join(entries_[k].half_face, entries_[i].half_face);
+                }
+                break;
+            }
+    }
+
+    template <class Join, class Shared>
+    void join_by_sorting(Join&& join, Shared&& shared_by_three)
+    {
+        std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.others < b.others; });
+        for (std::size_t i = 0; i < entries_.size();) {
+            std::size_t end = i + 1;
+            while (end < entries_.size() && entries_[end].others == entries_[i].others)
+                ++end;
+            if (end - i == 2)
+                join(entries_[i].half_face, entries_[i + 1].half_face);
+            else if (end - i > 2)
+                shared_by_three(entries_[i].half_face, entries_[i + 1].half_face, entries_[i + 2].half_face);
+            i = end;
+        }
+    }
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint64_t> keys_;
+};
+
+template <class Key>
+Adjacency adjacency_by(const Scene& scene, std::uint32_t row_length, Key&& key)
+{
+    const Mesh& mesh = scene.mesh();
+    const auto cells = scene.cell_count();
+    Adjacency adjacency;
+    adjacency.row_length = static_cast<int>(row_length);
+    adjacency.neighbour.resize(std::size_t{cells} * row_length);
+    adjacency.interior.resize(cells);
+    oneapi::tbb::parallel_for(Range(0, cells, 4096), [&](const Range& range) {
+        for (CellId cell = range.begin(); cell < range.end(); ++cell)
+            std::fill_n(adjacency.neighbour.data() + std::size_t{cell} * row_length, row_length, cell);
+    });
+
+    const Groups groups = group_half_faces(mesh, row_length, key);
+    SharedByThree shared;
+    const auto caller = [&](std::uint32_t half_face) { return scene.caller_cells()[half_face / row_length]; };
+    // An edge of three or more triangles joins none; its first two were joined when the third had not been seen.
+    const auto join_none = [&](auto... half_faces) {
+        ((adjacency.neighbour[half_faces] = half_faces / row_length), ...);
+    };
+    oneapi::tbb::parallel_for(Range(0, static_cast<std::uint32_t>(mesh.points.size()), 256), [&](const Range& range) {
+        Matching group;
+        for (PointId point = range.begin(); point < range.end(); ++point) {
+            group.clear();
+            for (std::uint32_t i = groups.begin[point]; i < groups.begin[point + 1]; ++i) {
+                const std::uint32_t half_face = groups.half_faces[i];
+                group.add(*key(half_face / row_length, static_cast<int>(half_face % row_length)), half_face);
+            }
+            group.join_equal(
+                [&](std::uint32_t a, std::uint32_t b) {
+                    adjacency.neighbour[a] = b / row_length;
+                    adjacency.neighbour[b] = a / row_length;
+                },
+                [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                    if (scene.is_surface())
+                        join_none(a, b, c);
+                    else
+                        shared.found(caller(a), caller(b), caller(c));
+                });
+        }
+    });
+    shared.throw_if_any();
+
+    oneapi::tbb::parallel_for(Range(0, cells, 4096), [&](const Range& range) {
+        for (CellId cell = range.begin(); cell < range.end(); ++cell) {
+            std::uint32_t bits = 0;
+            for (std::uint32_t face = 0; face < row_length; ++face)
+                bits |= std::uint32_t{adjacency.neighbour[std::size_t{cell} * row_length + face] != cell} << face;
+            adjacency.interior[cell] = static_cast<std::uint8_t>(bits);
+        }
+    });
+    return adjacency;
+}
+
+} // namespace
+
+Adjacency derive_adjacency(const Scene& scene)
+{
+    const Mesh& mesh = scene.mesh();
+    if (scene.is_tetrahedral())
+        return adjacency_by(scene, 4, [&](CellId cell, int face) {
+            return tetrahedron_face_key(mesh.vertices.data() + mesh.offsets[cell], face);
+        });
+    const int least = scene.is_surface() ? 2 : 3;
+    return adjacency_by(scene, scene.is_surface() ? 3 : 6,
+                        [&, least](CellId cell, int face) { return face_key(mesh, cell, face, least); });
+}
+
+int matching_face(const Scene& scene, CellId cell, int face)
+{
+    const Mesh& mesh = scene.mesh();
+    const CellId neighbour = scene.adjacency().row(cell)[static_cast<std::size_t>(face)];
+    const FaceLoop loop = face_loop(mesh, cell, face);
+    const auto row = scene.adjacency().row(neighbour);
+    for (int other = 0; other < face_count(mesh.shapes[neighbour]); ++other) {
+        if (row[static_cast<std::size_t>(other)] != cell)
+            continue;
+        const FaceLoop candidate = face_loop(mesh, neighbour, other);
+        const auto in_candidate = [&](PointId v) {
+            return std::find(candidate.begin(), candidate.end(), v) != candidate.end();
+        };
+        if (candidate.count == loop.count && std::all_of(loop.begin(), loop.end(), in_candidate))
+            return other;
+    }
+    throw std::logic_error("adjacency joins cells that share no face");
+}
+
+} // namespace visorder

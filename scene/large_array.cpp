@@ -1,0 +1,36 @@
+#include "scene/large_array.h"
+
+#include <cstdlib>
+#include <sys/mman.h>
+
+namespace visorder {
+
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+constexpr std::size_t worth_huge_pages = 2 * huge_page;
+
+} // namespace
+
+void* allocate_large(std::size_t bytes)
+{
+    if (bytes < worth_huge_pages)
+        return ::operator new(bytes);
+    const std::size_t whole_pages = (bytes + huge_page - 1) / huge_page * huge_page;
+    void* memory = std::aligned_alloc(huge_page, whole_pages);
+    if (memory == nullptr)
+        throw std::bad_alloc();
+    // Advice only: where the kernel declines, the memory is good all the same.
+    (void)madvise(memory, whole_pages, MADV_HUGEPAGE);
+    return memory;
+}
+
+void free_large(void* memory, std::size_t bytes) noexcept
+{
+    if (bytes < worth_huge_pages)
+        ::operator delete(memory);
+    else
+        std::free(memory);
+}
+
+} // namespace visorder

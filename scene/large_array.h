@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace visorder {
+
+/// Memory for arrays that are read in scattered order: 2 MiB aligned and advised to be on huge pages, which spares most
+/// of the address-translation misses of a sort over millions of cells. Small requests are plain allocations.
+void* allocate_large(std::size_t bytes);
+void free_large(void* memory, std::size_t bytes) noexcept;
+
+/// Standard allocator over allocate_large that leaves new elements of trivial types uninitialised: arrays are filled by
+/// parallel loops, and pages are first touched there.
+template <class T>
+struct LargeAllocator {
+    using value_type = T;
+
+    LargeAllocator() = default;
+    template <class U>
+    LargeAllocator(const LargeAllocator<U>&)
+    {
+    }
+
+    T* allocate(std::size_t n) { return static_cast<T*>(allocate_large(n * sizeof(T))); }
+    void deallocate(T* p, std::size_t n) noexcept { free_large(p, n * sizeof(T)); }
+
+    template <class U>
+    void construct(U* p)
+    {
+        ::new (static_cast<void*>(p)) U;
+    }
+    template <class U, class... Args>
+    void construct(U* p, Args&&... args)
+    {
+        ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
+    }
+
+    template <class U>
+    bool operator==(const LargeAllocator<U>&) const
+    {
+        return true;
+    }
+};
+
+/// A vector for millions of elements; `LargeArray<T>(n)` leaves trivial elements uninitialised.
+template <class T>
+using LargeArray = std::vector<T, LargeAllocator<T>>;
+
+} // namespace visorder

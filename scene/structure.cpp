@@ -1,0 +1,28 @@
+#include "scene/structure.h"
+
+namespace visorder {
+
+const char* name(Structure structure)
+{
+    switch (structure) {
+    case Structure::numbering:
+        return "numbering";
+    case Structure::orientations:
+        return "orientations";
+    case Structure::adjacency:
+        return "adjacency";
+    case Structure::boundary:
+        return "boundary";
+    case Structure::face_planes:
+        return "face planes";
+    case Structure::centroids:
+        return "centroids";
+    case Structure::circumspheres:
+        return "circumspheres";
+    case Structure::traits:
+        return "traits";
+    }
+    return "";
+}
+
+} // namespace visorder

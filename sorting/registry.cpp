@@ -1,0 +1,106 @@
+#include "sorting/registry.h"
+
+#include "scene/error.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <vector>
+
+namespace visorder {
+
+// Each sorter's room defines how it is made; the registry only knows the names.
+std::unique_ptr<Sorter> make_centroid(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_power(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_mpvo(const Scene&, const SorterOptions&);
+#if defined(VISORDER_WITH_VTK)
+std::unique_ptr<Sorter> make_vtk_cell_center(const Scene&, const SorterOptions&);
+#endif
+
+namespace {
+
+std::unique_ptr<Sorter> make_auto(const Scene& scene, const SorterOptions& options)
+{
+    return make_sorter(choose_sorter(scene).name, scene, options);
+}
+
+constexpr std::array for_centroid{Structure::numbering, Structure::centroids};
+constexpr std::array for_power{Structure::numbering, Structure::circumspheres};
+constexpr std::array for_mpvo{Structure::numbering, Structure::adjacency, Structure::orientations,
+                              Structure::face_planes};
+constexpr std::array for_auto{Structure::numbering, Structure::adjacency, Structure::orientations, Structure::boundary,
+                              Structure::traits};
+#if defined(VISORDER_WITH_VTK)
+constexpr std::array for_vtk{Structure::numbering};
+#endif
+
+using Make = std::unique_ptr<Sorter> (*)(const Scene&, const SorterOptions&);
+
+constexpr std::array infos
+{
+    SorterInfo{"centroid", "by the distance of the cell's centre", "common practice, e.g. Shirley, Tuchman 1990",
+               "never", for_centroid},
+        SorterInfo{"power", "by the power of the eye with respect to the cell's circumsphere",
+                   "Edelsbrunner 1989; Max, Williams, Silva 2000",
+                   "never by guarantee: right on Delaunay meshes without ties, up to the rounding of the keys",
+                   for_power},
+        SorterInfo{"mpvo", "topological sort over the relations across interior faces", "Williams 1992",
+                   "on convex meshes", for_mpvo},
+        SorterInfo{"auto", "the cheapest sorter that is exact for the scene, else the best there is",
+                   "traits of the scene", "where the sorter it stands for is", for_auto},
+#if defined(VISORDER_WITH_VTK)
+        SorterInfo{"vtk-cell-center", "VTK's own sort by cell centres, as a peer to measure against",
+                   "vtkCellCenterDepthSort, VTK 9.1", "never", for_vtk},
+#endif
+};
+
+constexpr std::array makers
+{
+    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_auto},
+#if defined(VISORDER_WITH_VTK)
+        Make{make_vtk_cell_center},
+#endif
+};
+static_assert(makers.size() == infos.size());
+
+} // namespace
+
+std::span<const SorterInfo> sorters()
+{
+    return infos;
+}
+
+std::unique_ptr<Sorter> make_sorter(std::string_view name, const Scene& scene, const SorterOptions& options)
+{
+    for (std::size_t i = 0; i < infos.size(); ++i)
+        if (name == infos[i].name)
+            return makers[i](scene, options);
+    std::vector<std::string_view> known;
+    for (const SorterInfo& info : infos)
+        known.emplace_back(info.name);
+    throw InputError(fmt::format("no sorter \"{}\"; there are: {}", name, fmt::join(known, ", ")));
+}
+
+AutoChoice choose_sorter(const Scene& scene)
+{
+    if (scene.is_surface())
+        return {"centroid", "a surface scene: no sorter here is exact for it"};
+    const Traits& traits = scene.traits();
+    if (!traits.planar_faces)
+        return {"centroid", "faces that are not planar: no sorter here is exact for them; subdivide into tetrahedra"};
+    if (traits.convex)
+        return {"mpvo", "the mesh is convex: relations across interior faces are all there are"};
+    if (traits.delaunay)
+        return {"power", "the mesh is not convex, but Delaunay: powers order it, up to ties and the rounding of keys"};
+    return {"mpvo", "the mesh is not convex and no sorter here is exact for it; mpvo keeps all interior relations"};
+}
+
+Order visibility_order(const Mesh& mesh, const View& view)
+{
+    const Scene scene(mesh);
+    Order order;
+    make_sorter("auto", scene)->sort(view, order);
+    return order;
+}
+
+} // namespace visorder

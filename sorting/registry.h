@@ -1,0 +1,41 @@
+#pragma once
+
+#include "sorting/sorter.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace visorder {
+
+/// Options of the sorters; each reads those that concern it.
+struct SorterOptions {};
+
+/// What there is to know of a sorter before making one.
+struct SorterInfo {
+    const char* name;
+    const char* summary;                   ///< one line
+    const char* source;                    ///< the paper or program it comes from
+    const char* exact_when;                ///< on which scenes it is exact
+    std::span<const Structure> structures; ///< what it asks its Scene to derive
+};
+
+/// Every sorter of this build, in the order tables show them.
+std::span<const SorterInfo> sorters();
+
+/// Makes a sorter for a scene, which must outlive it. Throws InputError for an unknown name (the known ones are listed)
+/// and for a scene that the sorter cannot take (the reason is given).
+std::unique_ptr<Sorter> make_sorter(std::string_view name, const Scene& scene, const SorterOptions& options = {});
+
+/// The sorter that `auto` stands for on a scene, and why.
+struct AutoChoice {
+    const char* name;
+    std::string reason;
+};
+AutoChoice choose_sorter(const Scene& scene);
+
+/// Orders a mesh once, by `auto`. Prepare a Scene and a Sorter instead when ordering from more than one eye.
+Order visibility_order(const Mesh& mesh, const View& view);
+
+} // namespace visorder

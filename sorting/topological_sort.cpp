@@ -1,0 +1,462 @@
+#include "sorting/topological_sort.h"
+
+#include "sorting/strongly_connected.h"
+#include "sorting/team.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+#include <set>
+#include <utility>
+
+namespace visorder {
+
+namespace {
+
+constexpr CellId worth_a_team = 1 << 15; // cells; fewer are sorted by one thread
+constexpr std::size_t narrow = 192;      // cells in a level that one thread does sooner than two can meet
+constexpr int owner_block_bits = 12;     // runs of 2^12 cells along the curve have one owner
+constexpr std::size_t step = 1 << 14;    // cells between two looks at the room in the lists
+constexpr std::size_t prefetch_rows = 12;
+constexpr std::size_t prefetch_states = 6;
+
+using Front = TopologicalSort::Front;
+
+// What one frame works on. A cell's state holds, in the lowest `row` bits, the faces across which lie cells that it
+// obstructs no more once listed (its entry faces: what is across them comes later), and above them how many cells that
+// it obstructs are not listed yet. At zero it is ready.
+template <int row, class State>
+struct Frame {
+    static constexpr State one = State{1} << row;
+
+    const CellId* neighbour;
+    State* state;
+    std::uint32_t* level;
+    CellId cells;
+    const std::uint32_t* more_begin; // null if there are no more relations
+    const CellId* more_front;
+
+    static bool ready(State s) { return s < one; }
+};
+
+struct alignas(64) Published {
+    std::array<std::atomic<std::size_t>, 2> pending{}; // by parity of the level
+};
+
+// One thread's part in the levels: it owns every size-th block of cells, and alone writes their states. What it would
+// change of another's cell it leaves in that one's box, to be read in the next level.
+template <int row, class State, bool shared>
+class Member {
+public:
+    Member(const Frame<row, State>& frame, std::vector<Front>& fronts, std::size_t member, std::size_t size)
+        : frame_(frame), fronts_(fronts), front_(fronts[member]), me_(member), owners_(size - 1)
+    {
+        front_.level_counts.clear();
+        ready_ = 0;
+        for (auto& boxes : front_.out) {
+            boxes.resize(size);
+            for (auto& box : boxes)
+                box.clear();
+        }
+    }
+
+    void find_first_level()
+    {
+        for (CellId begin = 0; begin < frame_.cells; begin += 1u << owner_block_bits) {
+            if (shared && owner(begin) != me_)
+                continue;
+            const CellId end = std::min<CellId>(frame_.cells, begin + (1u << owner_block_bits));
+            make_room(front_.now, ready_, end - begin);
+            for (CellId cell = begin; cell < end; ++cell) {
+                front_.now[ready_] = cell;
+                ready_ += Frame<row, State>::ready(frame_.state[cell]);
+            }
+        }
+    }
+
+    // Lists the cells that are ready at `level`, and returns how many entries it leaves for the next one.
+    std::size_t do_level(std::uint32_t level)
+    {
+        if constexpr (shared)
+            read_boxes(level);
+        front_.level_counts.push_back(static_cast<std::uint32_t>(ready_));
+        next_ = 0;
+        if constexpr (shared)
+            sent_.assign(fronts_.size(), 0);
+        for (std::size_t begin = 0; begin < ready_; begin += step) {
+            const std::size_t end = std::min(begin + step, ready_);
+            make_room(front_.next, next_, (end - begin) * row + 1);
+            if constexpr (shared)
+                for (std::size_t to = 0; to < fronts_.size(); ++to)
+                    make_room(front_.out[level & 1][to], sent_[to], (end - begin) * row + 1);
+            if (frame_.more_begin != nullptr)
+                list<true>(begin, end, level);
+            else
+                list<false>(begin, end, level);
+        }
+        std::size_t pending = next_;
+        if constexpr (shared)
+            for (std::size_t to = 0; to < fronts_.size(); ++to) {
+                front_.out[level & 1][to].resize(sent_[to]);
+                pending += sent_[to];
+            }
+        std::swap(front_.now, front_.next);
+        ready_ = next_;
+        return pending;
+    }
+
+    // Hand-over of the ready cells, with nothing in any box, between one thread and all.
+    std::size_t ready() const { return ready_; }
+    void take(std::span<const CellId> ready_cells)
+    {
+        make_room(front_.now, 0, ready_cells.size());
+        std::copy(ready_cells.begin(), ready_cells.end(), front_.now.begin());
+        ready_ = ready_cells.size();
+    }
+    std::span<const CellId> ready_cells() const { return {front_.now.data(), ready_}; }
+
+    void read_boxes(std::uint32_t level)
+    {
+        for (std::size_t from = 0; from < fronts_.size(); ++from) {
+            if (from == me_)
+                continue;
+            LargeArray<CellId>& box = fronts_[from].out[~level & 1][me_];
+            make_room(front_.now, ready_, box.size());
+            for (std::size_t i = 0; i < box.size(); ++i) {
+                const CellId cell = box[i];
+                const State s = static_cast<State>(frame_.state[cell] - Frame<row, State>::one);
+                frame_.state[cell] = s;
+                front_.now[ready_] = cell;
+                ready_ += Frame<row, State>::ready(s);
+            }
+        }
+    }
+
+private:
+    static void make_room(LargeArray<CellId>& list, std::size_t used, std::size_t more)
+    {
+        if (list.size() < used + more)
+            list.resize(std::max(used + more, list.size() + list.size() / 2));
+    }
+
+    std::size_t owner(CellId cell) const { return (cell >> owner_block_bits) & owners_; }
+
+    // One relation less between what was just listed (`cell`) and what stands before it (`front`), if `holds`. Without
+    // branches on the relation: which way a face looks is as good as random.
+    void satisfy(CellId cell, CellId front, State holds, std::uint32_t level)
+    {
+        if constexpr (shared) {
+            const std::size_t to = owner(front);
+            const auto mine = static_cast<State>(to == me_);
+            const CellId at = mine ? front : cell;
+            const auto s = static_cast<State>(frame_.state[at] - ((holds & mine) << row));
+            frame_.state[at] = s;
+            front_.next[next_] = front;
+            next_ += holds & mine & static_cast<State>(Frame<row, State>::ready(s));
+            front_.out[level & 1][to][sent_[to]] = front;
+            sent_[to] += holds & (mine ^ 1u);
+        } else {
+            const auto s = static_cast<State>(frame_.state[front] - (holds << row));
+            frame_.state[front] = s;
+            front_.next[next_] = front;
+            next_ += holds & static_cast<State>(Frame<row, State>::ready(s));
+        }
+    }
+
+    template <bool more>
+    void list(std::size_t begin, std::size_t end, std::uint32_t level)
+    {
+        const CellId* now = front_.now.data();
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + prefetch_rows < end) {
+                const CellId ahead = now[i + prefetch_rows];
+                __builtin_prefetch(frame_.neighbour + std::size_t{ahead} * row);
+                __builtin_prefetch(frame_.level + ahead, 1);
+                const CellId* soon = frame_.neighbour + std::size_t{now[i + prefetch_states]} * row;
+                for (int f = 0; f < row; ++f)
+                    __builtin_prefetch(frame_.state + soon[f], 1);
+            }
+            const CellId cell = now[i];
+            const State entry = frame_.state[cell];
+            frame_.level[cell] = level;
+            const CellId* across = frame_.neighbour + std::size_t{cell} * row;
+            for (int f = 0; f < row; ++f)
+                satisfy(cell, across[f], static_cast<State>(entry >> f & 1u), level);
+            if constexpr (more)
+                for (std::uint32_t k = frame_.more_begin[cell]; k < frame_.more_begin[cell + 1]; ++k) {
+                    make_room(front_.next, next_, std::size_t{row} * step + 2);
+                    if constexpr (shared)
+                        for (std::size_t to = 0; to < fronts_.size(); ++to)
+                            make_room(front_.out[level & 1][to], sent_[to], std::size_t{row} * step + 2);
+                    satisfy(cell, frame_.more_front[k], State{1}, level);
+                }
+        }
+    }
+
+    const Frame<row, State>& frame_;
+    std::vector<Front>& fronts_;
+    Front& front_;
+    std::size_t me_;
+    std::size_t owners_;
+    std::size_t ready_ = 0;
+    std::size_t next_ = 0;
+    std::vector<std::size_t> sent_;
+};
+
+template <int row, class State>
+void list_alone(const Frame<row, State>& frame, std::vector<Front>& fronts)
+{
+    Member<row, State, false> member(frame, fronts, 0, 1);
+    member.find_first_level();
+    for (std::uint32_t level = 0; member.ready() > 0; ++level)
+        member.do_level(level);
+}
+
+template <int row, class State>
+void list_together(const Frame<row, State>& frame, std::vector<Front>& fronts, std::vector<Published>& published,
+                   Team& team, std::size_t me)
+{
+    Member<row, State, true> member(frame, fronts, me, team.size());
+    // Boxes are read by others from here on.
+    team.wait_for_all();
+    member.find_first_level();
+    for (std::uint32_t level = 0;; ++level) {
+        const std::size_t pending = member.do_level(level);
+        published[me].pending[level & 1].store(pending, std::memory_order_relaxed);
+        team.wait_for_all();
+        std::size_t all = 0;
+        for (const Published& p : published)
+            all += p.pending[level & 1].load(std::memory_order_relaxed);
+        if (all == 0)
+            return;
+    }
+}
+
+// States of all cells from the sides of their faces.
+template <int row, class State>
+void count_relations(const Adjacency& adjacency, const FaceSigns& signs, State* state, CellId cells)
+{
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, cells, 16384), [&](const auto& range) {
+        for (CellId cell = range.begin(); cell < range.end(); ++cell) {
+            const std::uint32_t interior = adjacency.interior[cell];
+            const auto obstructed = static_cast<std::uint32_t>(std::popcount(signs.exit(cell) & interior));
+            state[cell] = static_cast<State>((signs.entry(cell) & interior) | obstructed << row);
+        }
+    });
+}
+
+// The cells that are left when no more are ready: those in cycles and behind them. Gives them levels from
+// `first_level` on and reports the cycles.
+template <int row, class State>
+void list_cycles(const Frame<row, State>& frame, std::span<const CellId> caller_cells,
+                 std::vector<std::uint32_t>& level_counts, std::vector<std::vector<CellId>>& cycles)
+{
+    const auto first_level = static_cast<std::uint32_t>(level_counts.size());
+    std::vector<CellId> left;
+    for (CellId cell = 0; cell < frame.cells; ++cell)
+        if (!Frame<row, State>::ready(frame.state[cell]))
+            left.push_back(cell);
+    const auto n = static_cast<std::uint32_t>(left.size());
+    const auto local = [&](CellId cell) {
+        return static_cast<std::uint32_t>(std::lower_bound(left.begin(), left.end(), cell) - left.begin());
+    };
+    std::vector<std::uint32_t> from, to;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const CellId cell = left[i];
+        for (int f = 0; f < row; ++f)
+            if ((frame.state[cell] >> f & 1u) != 0) {
+                from.push_back(i);
+                to.push_back(local(frame.neighbour[std::size_t{cell} * row + static_cast<std::size_t>(f)]));
+            }
+        if (frame.more_begin != nullptr)
+            for (std::uint32_t k = frame.more_begin[cell]; k < frame.more_begin[cell + 1]; ++k) {
+                from.push_back(i);
+                to.push_back(local(frame.more_front[k]));
+            }
+    }
+    const Graph graph = graph_of(n, from, to);
+    const Components components = strongly_connected_components(graph);
+
+    std::vector<std::vector<std::uint32_t>> members(components.count);
+    for (std::uint32_t i = 0; i < n; ++i)
+        members[components.of_node[i]].push_back(i);
+    // A component takes as many levels as it has cells, after all levels of those it must wait for.
+    std::vector<std::uint32_t> start(components.count, first_level);
+    std::vector<std::uint32_t> unsatisfied(n, 0);
+    for (std::uint32_t c = components.count; c-- > 0;) {
+        const auto end = start[c] + static_cast<std::uint32_t>(members[c].size());
+        level_counts.resize(std::max<std::size_t>(level_counts.size(), end), 0);
+        for (std::uint32_t i : members[c])
+            for (std::uint32_t j : graph.of(i)) {
+                if (components.of_node[j] == c)
+                    ++unsatisfied[j];
+                else
+                    start[components.of_node[j]] = std::max(start[components.of_node[j]], end);
+            }
+        std::set<std::pair<std::uint32_t, std::uint32_t>> fewest_first;
+        for (std::uint32_t i : members[c])
+            fewest_first.emplace(unsatisfied[i], i);
+        for (std::uint32_t level = start[c]; !fewest_first.empty(); ++level) {
+            const std::uint32_t i = fewest_first.begin()->second;
+            fewest_first.erase(fewest_first.begin());
+            frame.level[left[i]] = level;
+            ++level_counts[level];
+            for (std::uint32_t j : graph.of(i)) {
+                const auto at = fewest_first.find({unsatisfied[j], j});
+                if (components.of_node[j] != c || at == fewest_first.end())
+                    continue;
+                fewest_first.erase(at);
+                fewest_first.emplace(--unsatisfied[j], j);
+            }
+        }
+        if (members[c].size() > 1) {
+            std::vector<CellId>& cycle = cycles.emplace_back();
+            for (std::uint32_t i : members[c])
+                cycle.push_back(caller_cells[left[i]]);
+            std::sort(cycle.begin(), cycle.end());
+        }
+    }
+    std::sort(cycles.begin(), cycles.end());
+}
+
+// Lists cells by level, those of one level in inner order: a counting sort, in chunks of cells side by side.
+void write_order(std::span<const std::uint32_t> level, std::span<const CellId> caller_cells,
+                 std::vector<std::uint32_t>& cursors, Order& order)
+{
+    const std::size_t cells = level.size(), levels = order.layer_begin.size();
+    const std::size_t chunks = std::clamp<std::size_t>(
+        cells / worth_a_team, 1, static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()));
+    const auto begin_of = [&](std::size_t chunk) { return cells * chunk / chunks; };
+    const auto each_chunk = [&](auto&& body) {
+        oneapi::tbb::parallel_for(std::size_t{0}, chunks, body, oneapi::tbb::simple_partitioner());
+    };
+    cursors.resize(chunks * levels);
+    if (chunks == 1) {
+        std::copy(order.layer_begin.begin(), order.layer_begin.end(), cursors.begin());
+    } else {
+        each_chunk([&](std::size_t chunk) {
+            std::uint32_t* count = cursors.data() + chunk * levels;
+            std::fill_n(count, levels, 0u);
+            for (std::size_t i = begin_of(chunk); i < begin_of(chunk + 1); ++i)
+                ++count[level[i]];
+        });
+        for (std::size_t l = 0; l < levels; ++l) {
+            std::uint32_t at = order.layer_begin[l];
+            for (std::size_t chunk = 0; chunk < chunks; ++chunk)
+                at += std::exchange(cursors[chunk * levels + l], at);
+        }
+    }
+    each_chunk([&](std::size_t chunk) {
+        std::uint32_t* cursor = cursors.data() + chunk * levels;
+        CellId* to = order.back_to_front.data();
+        for (std::size_t i = begin_of(chunk); i < begin_of(chunk + 1); ++i)
+            to[cursor[level[i]]++] = caller_cells[i];
+    });
+}
+
+void group_by_back(std::span<const Relation> relations, CellId cells, std::vector<std::uint32_t>& begin,
+                   std::vector<CellId>& fronts)
+{
+    begin.assign(std::size_t{cells} + 1, 0);
+    fronts.resize(relations.size());
+    for (const Relation& r : relations)
+        ++begin[r.back];
+    std::uint32_t end = 0;
+    for (std::uint32_t& count : begin)
+        count = end += count;
+    for (std::size_t i = relations.size(); i-- > 0;)
+        fronts[--begin[relations[i].back]] = relations[i].front;
+}
+
+template <int row, class State>
+void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_cells, std::vector<Front>& fronts,
+               std::vector<std::uint32_t>& cursors, Order& order)
+{
+    const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
+    if (threads == 1 || frame.cells < worth_a_team) {
+        fronts.resize(1);
+        list_alone(frame, fronts);
+    } else {
+        std::vector<Published> published;
+        std::atomic<bool> prepared{false};
+        Team::run(threads, [&](Team& team, std::size_t me) {
+            if (me == 0) {
+                fronts.resize(team.size());
+                published = std::vector<Published>(team.size());
+            }
+            team.wait_for_all();
+            if (team.size() == 1)
+                list_alone(frame, fronts);
+            else
+                list_together(frame, fronts, published, team, me);
+        });
+    }
+
+    std::vector<std::uint32_t> level_counts;
+    std::size_t listed = 0;
+    for (const Front& front : fronts) {
+        level_counts.resize(std::max(level_counts.size(), front.level_counts.size()), 0);
+        for (std::size_t l = 0; l < front.level_counts.size(); ++l) {
+            level_counts[l] += front.level_counts[l];
+            listed += front.level_counts[l];
+        }
+    }
+    while (!level_counts.empty() && level_counts.back() == 0)
+        level_counts.pop_back();
+    order.cycles.clear();
+    if (listed < frame.cells)
+        list_cycles(frame, caller_cells, level_counts, order.cycles);
+    order.layer_begin.resize(level_counts.size());
+    std::exclusive_scan(level_counts.begin(), level_counts.end(), order.layer_begin.begin(), 0u);
+    order.back_to_front.resize(frame.cells);
+    write_order({frame.level, frame.cells}, caller_cells, cursors, order);
+}
+
+} // namespace
+
+void TopologicalSort::run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order)
+{
+    const Adjacency& adjacency = scene.adjacency();
+    const CellId cells = scene.cell_count();
+    level_.resize(cells);
+    if (!more.empty())
+        group_by_back(more, cells, more_begin_, more_front_);
+    const auto run_with = [&]<int row, class State>(LargeArray<State>& state) {
+        state.resize(cells);
+        count_relations<row>(adjacency, signs, state.data(), cells);
+        for (const Relation& r : more)
+            state[r.front] = static_cast<State>(state[r.front] + Frame<row, State>::one);
+        const Frame<row, State> frame{
+            adjacency.neighbour.data(), state.data(), level_.data(), cells, more.empty() ? nullptr : more_begin_.data(),
+            more_front_.data()};
+        run_frame(frame, scene.caller_cells(), fronts_, cursors_, order);
+    };
+    if (adjacency.row_length == 4 && more.empty())
+        run_with.template operator()<4>(small_state_);
+    else if (adjacency.row_length == 4)
+        run_with.template operator()<4>(large_state_);
+    else
+        run_with.template operator()<6>(large_state_);
+}
+
+std::size_t TopologicalSort::bytes() const
+{
+    const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+    std::size_t sum = size_of(small_state_) + size_of(large_state_) + size_of(level_) + size_of(more_begin_) +
+                      size_of(more_front_) + size_of(cursors_);
+    for (const Front& front : fronts_) {
+        sum += size_of(front.now) + size_of(front.next) + size_of(front.level_counts);
+        for (const auto& boxes : front.out)
+            for (const auto& box : boxes)
+                sum += size_of(box);
+    }
+    return sum;
+}
+
+} // namespace visorder

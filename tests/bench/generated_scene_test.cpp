@@ -1,0 +1,594 @@
+#include "bench/generated_scene.h"
+
+#include "scene/error.h"
+#include "scene/exact_predicates.h"
+#include "scene/scene.h"
+#include "scene/subdivision.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <ostream>
+#include <random>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace visorder {
+
+namespace {
+
+constexpr CellId none = 0xffffffff;
+
+// What is said of a family in scene_families.h. Bodies are the sets of cells that points connect.
+struct Expectation {
+    const char* name;
+    CellShape shape;
+    bool convex;
+    bool delaunay;
+    bool face_to_face;
+    bool acyclic;
+    std::size_t bodies;
+    std::uint64_t checksum; // of NAME:3000
+};
+
+void PrintTo(const Expectation& expectation, std::ostream* stream)
+{
+    *stream << expectation.name;
+}
+
+constexpr std::array expectations{
+    Expectation{"delaunay", CellShape::tetrahedron, true, true, true, true, 1, 0x052f9930932f896b},
+    Expectation{"carved", CellShape::tetrahedron, false, true, true, true, 1, 0xdd4d7880d1f24b67},
+    Expectation{"grid", CellShape::hexahedron, true, false, true, true, 1, 0xa3d034d555a056a2},
+    Expectation{"fin", CellShape::hexahedron, false, false, true, true, 1, 0xa27d86ac5ad6593f},
+    Expectation{"post", CellShape::hexahedron, false, false, true, true, 1, 0x6603d2c5c7bcf539},
+    Expectation{"pinwheel", CellShape::tetrahedron, false, false, true, false, 3, 0x1abdd5099837e409},
+    Expectation{"slivers", CellShape::tetrahedron, true, true, true, true, 1, 0xb8b5b61ee7a63303},
+    Expectation{"offset", CellShape::tetrahedron, true, true, true, true, 1, 0xe41629ba3e1dbcbf},
+    Expectation{"contact", CellShape::tetrahedron, false, false, false, true, 2, 0x65ce0c9ab0b88209},
+    Expectation{"cavity", CellShape::tetrahedron, false, true, true, true, 2, 0x76fbfe29da3f674e},
+};
+
+// Tetrahedra, counted as the SIZE of a specification counts them.
+std::size_t tetrahedra(const Mesh& mesh)
+{
+    return mesh.cell_count() * (mesh.shapes.front() == CellShape::hexahedron ? 6 : 1);
+}
+
+double determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+    return glm::dot(glm::cross(a, b), c);
+}
+
+// The least determinant of the three edges at a corner, over the corners of a hexahedron or for one of a tetrahedron:
+// positive where the vertices stand in VTK's order.
+double least_corner(const Mesh& mesh, CellId cell)
+{
+    const auto vertices = mesh.cell(cell);
+    const auto corner = [&](std::uint32_t at, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const glm::dvec3& origin = mesh.points[vertices[at]];
+        return determinant(mesh.points[vertices[a]] - origin, mesh.points[vertices[b]] - origin,
+                           mesh.points[vertices[c]] - origin);
+    };
+    if (mesh.shapes[cell] == CellShape::tetrahedron)
+        return corner(0, 1, 2, 3);
+    double least = corner(0, 1, 3, 4);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t next = (i + 1) % 4;
+        const std::uint32_t previous = (i + 3) % 4;
+        least = std::min({least, corner(i, next, previous, i + 4), corner(i + 4, previous + 4, next + 4, i)});
+    }
+    return least;
+}
+
+// Of every bit of the points, vertices and scalars (FNV-1a, a number at a time).
+std::uint64_t checksum(const Mesh& mesh)
+{
+    std::uint64_t sum = 0xcbf29ce484222325;
+    const auto add = [&](std::uint64_t value) { sum = (sum ^ value) * 0x100000001b3; };
+    for (const glm::dvec3& point : mesh.points)
+        for (int axis = 0; axis < 3; ++axis)
+            add(std::bit_cast<std::uint64_t>(point[axis]));
+    for (const PointId vertex : mesh.vertices)
+        add(vertex);
+    for (const float scalar : mesh.scalars)
+        add(std::bit_cast<std::uint32_t>(scalar));
+    return sum;
+}
+
+using FaceKey = std::array<PointId, 4>;
+
+// Of a face its vertices, sorted; a triangle's last is repeated.
+FaceKey key_of(const Mesh& mesh, CellId cell, int face)
+{
+    FaceKey key{};
+    const auto corners = face_vertices(mesh.shapes[cell], face);
+    for (std::size_t i = 0; i < key.size(); ++i)
+        key[i] = mesh.cell(cell)[corners[std::min(i, corners.size() - 1)]];
+    std::sort(key.begin(), key.end());
+    return key;
+}
+
+struct Owner {
+    CellId cell;
+    int face;
+};
+
+std::map<FaceKey, std::vector<Owner>> owners_of_faces(const Mesh& mesh)
+{
+    std::map<FaceKey, std::vector<Owner>> owners;
+    for (CellId cell = 0; cell < mesh.cell_count(); ++cell)
+        for (int face = 0; face < face_count(mesh.shapes[cell]); ++face)
+            owners[key_of(mesh, cell, face)].push_back({cell, face});
+    return owners;
+}
+
+// Sets of cells that points connect.
+std::size_t count_bodies(const Mesh& mesh)
+{
+    std::vector<PointId> parent(mesh.points.size());
+    std::iota(parent.begin(), parent.end(), PointId{0});
+    const auto root = [&](PointId point) {
+        while (parent[point] != point)
+            point = parent[point] = parent[parent[point]];
+        return point;
+    };
+    for (CellId cell = 0; cell < mesh.cell_count(); ++cell)
+        for (const PointId vertex : mesh.cell(cell))
+            parent[root(vertex)] = root(mesh.cell(cell)[0]);
+    std::size_t roots = 0;
+    for (PointId point = 0; point < parent.size(); ++point)
+        roots += parent[point] == point;
+    return roots;
+}
+
+using Relations = std::vector<std::vector<CellId>>;
+
+// For each cell those that it obstructs across a face. Every face is planar, so three of its vertices tell.
+Relations relations_across_faces(const Mesh& mesh, const glm::dvec4& eye)
+{
+    Relations behind(mesh.cell_count());
+    for (const auto& [key, owners] : owners_of_faces(mesh)) {
+        if (owners.size() != 2)
+            continue;
+        const auto corners = face_vertices(mesh.shapes[owners[0].cell], owners[0].face);
+        const auto point = [&](std::size_t i) { return mesh.points[mesh.cell(owners[0].cell)[corners[i]]]; };
+        const Sign side = side_of_plane(point(0), point(1), point(2), eye);
+        if (side == Sign::positive) // outside of the first owner
+            behind[owners[1].cell].push_back(owners[0].cell);
+        if (side == Sign::negative)
+            behind[owners[0].cell].push_back(owners[1].cell);
+    }
+    return behind;
+}
+
+// How many cells cannot be ordered since they are in a cycle or behind one.
+std::size_t count_unordered(const Relations& behind)
+{
+    std::vector<std::size_t> waits_for(behind.size(), 0);
+    for (const auto& cells : behind)
+        for (const CellId cell : cells)
+            ++waits_for[cell];
+    std::vector<CellId> ready;
+    for (CellId cell = 0; cell < behind.size(); ++cell)
+        if (waits_for[cell] == 0)
+            ready.push_back(cell);
+    for (std::size_t i = 0; i < ready.size(); ++i)
+        for (const CellId cell : behind[ready[i]])
+            if (--waits_for[cell] == 0)
+                ready.push_back(cell);
+    return behind.size() - ready.size();
+}
+
+glm::dvec3 random_direction(std::mt19937_64& random)
+{
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    while (true) {
+        const glm::dvec3 direction(coordinate(random), coordinate(random), coordinate(random));
+        const double length = glm::length(direction);
+        if (length <= 1 && length > 0.1)
+            return direction / length;
+    }
+}
+
+// Parallel, far, near, inside, and in the planes of grid lines.
+std::vector<glm::dvec4> various_eyes(const Mesh& mesh)
+{
+    Box bounds;
+    for (const glm::dvec3& point : mesh.points)
+        bounds.add(point);
+    const glm::dvec3 extent = bounds.max - bounds.min;
+    std::mt19937_64 random(7);
+    std::vector<glm::dvec4> eyes;
+    for (int i = 0; i < 6; ++i) {
+        eyes.emplace_back(random_direction(random), 0);
+        eyes.emplace_back(bounds.middle() + 100.0 * glm::length(extent) * random_direction(random), 1);
+        eyes.emplace_back(bounds.middle() + extent * random_direction(random), 1);
+        eyes.emplace_back(bounds.middle() + 0.4 * extent * random_direction(random), 1);
+        eyes.emplace_back(mesh.points[random() % mesh.points.size()], 1);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec4 along(0);
+        along[axis] = 1;
+        eyes.push_back(along);
+    }
+    eyes.emplace_back(bounds.min, 1);
+    return eyes;
+}
+
+class GeneratedSceneOf : public testing::TestWithParam<Expectation> {
+protected:
+    std::string specification(std::size_t size, int seed = 1) const
+    {
+        return std::string(GetParam().name) + ":" + std::to_string(size) + ":" + std::to_string(seed);
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(EachFamily, GeneratedSceneOf, testing::ValuesIn(expectations),
+                         [](const auto& family) { return std::string(family.param.name); });
+
+} // namespace
+
+TEST(GeneratedScene, EveryFamilyIsExpected)
+{
+    ASSERT_EQ(generated_scenes().size(), expectations.size());
+    for (const GeneratedScene& scene : generated_scenes()) {
+        SCOPED_TRACE(scene.name);
+        EXPECT_EQ(std::count_if(expectations.begin(), expectations.end(),
+                                [&](const Expectation& e) { return std::string_view(e.name) == scene.name; }),
+                  1);
+        EXPECT_FALSE(std::string_view(scene.summary).empty());
+    }
+}
+
+TEST_P(GeneratedSceneOf, IsTheSameEveryTime)
+{
+    const Mesh first = generate(specification(20'000, 5));
+    const Mesh second = generate(specification(20'000, 5));
+    EXPECT_EQ(first.points, second.points);
+    EXPECT_EQ(first.shapes, second.shapes);
+    EXPECT_EQ(first.offsets, second.offsets);
+    EXPECT_EQ(first.vertices, second.vertices);
+    EXPECT_EQ(first.scalars, second.scalars);
+}
+
+TEST_P(GeneratedSceneOf, IsTheSameOnEveryMachine)
+{
+    EXPECT_EQ(checksum(generate(specification(3000))), GetParam().checksum)
+        << std::hex << checksum(generate(specification(3000)))
+        << ": if the scene was meant to change, results from before cannot be compared with those from now";
+}
+
+TEST_P(GeneratedSceneOf, HasAboutAsManyCellsAsAskedFor)
+{
+    const auto family = std::find_if(generated_scenes().begin(), generated_scenes().end(),
+                                     [](const auto& scene) { return std::string_view(scene.name) == GetParam().name; });
+    EXPECT_NEAR(static_cast<double>(tetrahedra(generate(GetParam().name))), static_cast<double>(family->default_cells),
+                0.05 * static_cast<double>(family->default_cells));
+    for (const std::size_t size : {2000, 7500, 30'000})
+        for (const int seed : {1, 2}) {
+            SCOPED_TRACE(specification(size, seed));
+            const auto asked = static_cast<double>(size);
+            EXPECT_NEAR(static_cast<double>(tetrahedra(generate(specification(size, seed)))), asked, 0.15 * asked);
+        }
+}
+
+TEST_P(GeneratedSceneOf, IsAValidMeshOfItsShapeWithSmoothScalars)
+{
+    const Mesh mesh = generate(specification(20'000));
+    EXPECT_NO_THROW(validate(mesh));
+    EXPECT_TRUE(std::ranges::all_of(mesh.shapes, [](CellShape shape) { return shape == GetParam().shape; }));
+    ASSERT_EQ(mesh.scalars.size(), mesh.points.size());
+    const auto [lowest, highest] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
+    EXPECT_GE(*lowest, 0);
+    EXPECT_LE(*highest, 1);
+    EXPECT_GT(*highest - *lowest, 0.3);
+    std::vector<char> used(mesh.points.size(), 0);
+    for (const PointId vertex : mesh.vertices)
+        used[vertex] = 1;
+    EXPECT_TRUE(std::ranges::all_of(used, [](char u) { return u == 1; }));
+}
+
+TEST_P(GeneratedSceneOf, HasCellsOfPositiveVolumeInVtksOrder)
+{
+    const bool slivers = std::string_view(GetParam().name) == "slivers";
+    for (const std::size_t size : {2000, 50'000}) {
+        const Mesh mesh = generate(specification(size));
+        const Mesh tetrahedra = subdivide(mesh).mesh;
+        for (CellId cell = 0; cell < mesh.cell_count(); ++cell)
+            EXPECT_GE(least_corner(mesh, cell), slivers ? 0 : std::numeric_limits<double>::min()) << "cell " << cell;
+        for (CellId cell = 0; cell < tetrahedra.cell_count(); ++cell)
+            EXPECT_GE(least_corner(tetrahedra, cell), slivers ? 0 : std::numeric_limits<double>::min())
+                << "tetrahedron " << cell;
+    }
+}
+
+TEST_P(GeneratedSceneOf, HasFacesOfAtMostTwoCellsOnItsTwoSides)
+{
+    const Mesh mesh = generate(specification(20'000));
+    const auto far_vertex = [&](const Owner& owner) {
+        const auto corners = face_vertices(mesh.shapes[owner.cell], owner.face);
+        const int count = vertex_count(mesh.shapes[owner.cell]);
+        int vertex = 0;
+        while (vertex < count && std::ranges::find(corners, vertex) != corners.end())
+            ++vertex;
+        return mesh.points[mesh.cell(owner.cell)[static_cast<std::size_t>(vertex)]];
+    };
+    for (const auto& [key, owners] : owners_of_faces(mesh)) {
+        ASSERT_LE(owners.size(), 2u);
+        if (owners.size() < 2)
+            continue;
+        const auto corners = face_vertices(mesh.shapes[owners[0].cell], owners[0].face);
+        const auto point = [&](std::size_t i) { return mesh.points[mesh.cell(owners[0].cell)[corners[i]]]; };
+        EXPECT_EQ(side_of_plane(point(0), point(1), point(2), far_vertex(owners[0])), Sign::negative);
+        EXPECT_EQ(side_of_plane(point(0), point(1), point(2), far_vertex(owners[1])), Sign::positive);
+        EXPECT_EQ(side_of_plane(point(0), point(1), point(2), point(corners.size() - 1)), Sign::zero) << "not planar";
+    }
+}
+
+TEST_P(GeneratedSceneOf, HangsTogetherInItsBodies)
+{
+    for (const std::size_t size : {2000, 20'000})
+        for (const int seed : {1, 2, 3}) {
+            SCOPED_TRACE(specification(size, seed));
+            EXPECT_EQ(count_bodies(generate(specification(size, seed))), GetParam().bodies);
+        }
+}
+
+TEST_P(GeneratedSceneOf, HasTheTraitsItsFamilyPromises)
+{
+    const Scene scene(generate(specification(3000)));
+    const Traits& traits = scene.traits();
+    EXPECT_EQ(traits.convex, GetParam().convex);
+    EXPECT_EQ(traits.delaunay, GetParam().delaunay);
+    EXPECT_EQ(traits.face_to_face, GetParam().face_to_face);
+    EXPECT_TRUE(traits.planar_faces);
+    EXPECT_EQ(traits.flat_cells, 0u);
+    EXPECT_EQ(traits.inverted_cells, 0u);
+    EXPECT_EQ(traits.folded_faces, 0u);
+}
+
+TEST(GeneratedScene, HasNoCycleAcrossFacesUnlessItIsMeantTo)
+{
+    for (const Expectation& expectation : expectations) {
+        if (!expectation.acyclic)
+            continue;
+        const Mesh mesh = generate(std::string(expectation.name) + ":3000");
+        const Mesh tetrahedra = subdivide(mesh).mesh;
+        for (const glm::dvec4& eye : various_eyes(mesh)) {
+            SCOPED_TRACE(testing::Message()
+                         << expectation.name << ":3000 from " << eye.x << " " << eye.y << " " << eye.z << " " << eye.w);
+            EXPECT_EQ(count_unordered(relations_across_faces(mesh, eye)), 0u);
+            EXPECT_EQ(count_unordered(relations_across_faces(tetrahedra, eye)), 0u);
+        }
+    }
+}
+
+TEST(GeneratedScene, SeedsMakeDifferentRandomScenes)
+{
+    for (const std::string name : {"delaunay", "carved", "slivers", "offset", "contact", "cavity"}) {
+        SCOPED_TRACE(name);
+        EXPECT_NE(generate(name + ":2000:1").points, generate(name + ":2000:2").points);
+        EXPECT_EQ(generate(name + ":2000").points, generate(name + ":2000:1").points);
+    }
+    for (const std::string name : {"grid", "fin", "post", "pinwheel"}) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(generate(name + ":2000:1").points, generate(name + ":2000:2").points);
+    }
+}
+
+TEST(GeneratedScene, SmallestOfEachFamilyExists)
+{
+    for (const GeneratedScene& scene : generated_scenes()) {
+        std::size_t size = 1;
+        for (bool made = false; !made; ++size)
+            try {
+                const Mesh mesh = generate(std::string(scene.name) + ":" + std::to_string(size));
+                made = true;
+                SCOPED_TRACE(testing::Message() << scene.name << ":" << size);
+                EXPECT_NO_THROW(validate(mesh));
+                EXPECT_NEAR(static_cast<double>(tetrahedra(mesh)), static_cast<double>(size),
+                            0.35 * static_cast<double>(size));
+                for (CellId cell = 0; cell < mesh.cell_count(); ++cell)
+                    EXPECT_GT(least_corner(mesh, cell), 0) << "cell " << cell;
+            } catch (const InputError&) {
+            }
+        EXPECT_LE(size, 2001u) << scene.name;
+    }
+}
+
+TEST(ContactScene, TouchesInAPlaneWithoutCommonPoints)
+{
+    Mesh mesh = generate("contact:5000");
+    std::size_t in_plane = 0;
+    for (CellId cell = 0; cell < mesh.cell_count(); ++cell) {
+        double low = 2;
+        double high = 0;
+        for (const PointId vertex : mesh.cell(cell)) {
+            low = std::min(low, mesh.points[vertex].x);
+            high = std::max(high, mesh.points[vertex].x);
+        }
+        EXPECT_TRUE(high <= 1 || low >= 1) << "cell " << cell;
+    }
+    for (const glm::dvec3& point : mesh.points)
+        in_plane += point.x == 1;
+    EXPECT_GT(in_plane, 100u);
+    EXPECT_EQ(weld(mesh), 0u);
+}
+
+TEST(CavityScene, HasAnIslandInsideAShellAndAGapBetween)
+{
+    const Mesh mesh = generate("cavity:5000");
+    std::size_t island = 0;
+    for (CellId cell = 0; cell < mesh.cell_count(); ++cell) {
+        std::size_t near = 0;
+        for (const PointId vertex : mesh.cell(cell)) {
+            const double distance = glm::distance(mesh.points[vertex], glm::dvec3(0.5));
+            EXPECT_TRUE(distance < 0.2 || distance > 0.3);
+            near += distance < 0.2;
+        }
+        EXPECT_TRUE(near == 0 || near == 4) << "cell " << cell << " spans the gap";
+        island += near == 4;
+    }
+    EXPECT_GT(island, 20u);
+    EXPECT_GT(mesh.cell_count() - island, 20u);
+}
+
+TEST(OffsetScene, StandsFarFromTheOrigin)
+{
+    for (const glm::dvec3& point : generate("offset:2000").points) {
+        EXPECT_NEAR(point.x, 1e7 + 0.5, 0.5);
+        EXPECT_NEAR(point.y, -2e7 + 0.5, 0.5);
+        EXPECT_NEAR(point.z, 3e7 + 0.5, 0.5);
+    }
+}
+
+TEST(GridScene, HasCoordinatesAtEqualStepsExactly)
+{
+    const Mesh mesh = generate("grid:6000");
+    std::array<std::vector<double>, 3> places;
+    for (const glm::dvec3& point : mesh.points)
+        for (int axis = 0; axis < 3; ++axis)
+            places[static_cast<std::size_t>(axis)].push_back(point[axis]);
+    for (std::vector<double>& axis : places) {
+        std::sort(axis.begin(), axis.end());
+        axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
+        ASSERT_EQ(axis.size(), 11u);
+        for (std::size_t i = 0; i < axis.size(); ++i)
+            EXPECT_EQ(axis[i], static_cast<double>(i) * axis[1]);
+    }
+}
+
+// Which ring, if any, obstructs itself all the way around: the number of its first cell.
+CellId whole_ring_in_a_cycle(const Mesh& mesh, const Relations& behind)
+{
+    const CellId ring = static_cast<CellId>(mesh.cell_count() / 3);
+    for (CellId first = 0; first < mesh.cell_count(); first += ring)
+        for (const CellId step : {CellId{1}, ring - 1}) {
+            bool all = true;
+            for (CellId i = 0; i < ring; ++i)
+                all = all && behind[first + i] == std::vector<CellId>{first + (i + step) % ring};
+            if (all)
+                return first;
+        }
+    return none;
+}
+
+TEST(PinwheelScene, HasACycleOfAWholeRingFromEveryDirection)
+{
+    for (const char* const specification : {"pinwheel:48", "pinwheel", "pinwheel:600"}) {
+        const Mesh mesh = generate(specification);
+        std::mt19937_64 random(3);
+        for (int i = 0; i < 200; ++i) {
+            glm::dvec3 direction = random_direction(random);
+            if (i < 8) // the directions farthest from all the rings' axes
+                direction = {i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1};
+            SCOPED_TRACE(testing::Message()
+                         << specification << " along " << direction.x << " " << direction.y << " " << direction.z);
+            for (const glm::dvec4& eye : {glm::dvec4(direction, 0), glm::dvec4(1e5 * direction, 1)})
+                EXPECT_NE(whole_ring_in_a_cycle(mesh, relations_across_faces(mesh, eye)), none);
+        }
+    }
+}
+
+TEST(PinwheelScene, HasCellsThatDoNotOverlap)
+{
+    // Two tetrahedra have no common interior if the plane of a face of one, or one along an edge of each, divides them.
+    // Their volumes are far from zero here, so what doubles decide wrongly is touching only, which the slack forgives.
+    for (const char* const specification : {"pinwheel:48", "pinwheel:192"}) {
+        const Mesh mesh = generate(specification);
+        const auto corner = [&](CellId cell, std::size_t i) { return mesh.points[mesh.cell(cell)[i]]; };
+        const auto divided_along = [&](CellId a, CellId b, const glm::dvec3& normal) {
+            double a_low = 1e300, a_high = -1e300, b_low = 1e300, b_high = -1e300;
+            for (std::size_t i = 0; i < 4; ++i) {
+                a_low = std::min(a_low, glm::dot(normal, corner(a, i)));
+                a_high = std::max(a_high, glm::dot(normal, corner(a, i)));
+                b_low = std::min(b_low, glm::dot(normal, corner(b, i)));
+                b_high = std::max(b_high, glm::dot(normal, corner(b, i)));
+            }
+            const double slack = 1e-11 * glm::length(normal);
+            return glm::length(normal) > 1e-9 && (a_high <= b_low + slack || b_high <= a_low + slack);
+        };
+        const auto edges = [&](CellId cell) {
+            std::vector<glm::dvec3> result;
+            for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    result.push_back(corner(cell, i) - corner(cell, j));
+            return result;
+        };
+        for (CellId a = 0; a < mesh.cell_count(); ++a)
+            for (CellId b = 0; b < a; ++b) {
+                bool divided = false;
+                for (const CellId cell : {a, b})
+                    for (const glm::dvec3& first : edges(cell))
+                        for (const glm::dvec3& second : edges(cell))
+                            divided = divided || divided_along(a, b, glm::cross(first, second));
+                for (const glm::dvec3& first : edges(a))
+                    for (const glm::dvec3& second : edges(b))
+                        divided = divided || divided_along(a, b, glm::cross(first, second));
+                EXPECT_TRUE(divided) << specification << ": cells " << a << " and " << b;
+            }
+    }
+}
+
+TEST(GeneratedScene, RefusesWhatItDoesNotUnderstand)
+{
+    for (const char* const specification : {"",
+                                            "nonesuch",
+                                            "Delaunay",
+                                            ":1000",
+                                            "delaunay ",
+                                            "delaunay:",
+                                            "delaunay:0",
+                                            "delaunay:-5",
+                                            "delaunay:+5",
+                                            "delaunay:1e5",
+                                            "delaunay:1000.5",
+                                            "delaunay: 1000",
+                                            "delaunay:1000x",
+                                            "delaunay:99",
+                                            "delaunay:536870913",
+                                            "delaunay:99999999999999999999",
+                                            "delaunay:1000:",
+                                            "delaunay:1000:x",
+                                            "delaunay:1000:-1",
+                                            "delaunay:1000:18446744073709551616",
+                                            "delaunay:1000:1:1",
+                                            "delaunay::1",
+                                            "pinwheel:47",
+                                            "grid:5"}) {
+        SCOPED_TRACE(specification);
+        try {
+            generate(specification);
+            ADD_FAILURE() << "accepted";
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_FALSE(message.empty());
+            EXPECT_EQ(message.find('\n'), std::string::npos);
+        }
+    }
+}
+
+TEST(GeneratedScene, ListsTheKnownNamesForAnUnknownOne)
+{
+    try {
+        generate("nonesuch:1000");
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        for (const GeneratedScene& scene : generated_scenes())
+            EXPECT_NE(std::string(error.what()).find(scene.name), std::string::npos) << scene.name;
+    }
+}
+
+} // namespace visorder

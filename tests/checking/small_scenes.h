@@ -1,0 +1,65 @@
+#pragma once
+
+#include "scene/mesh.h"
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace visorder {
+
+class Scene;
+
+/// The same numbers on every machine.
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+    /// In [0, count).
+    int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
+    /// In [low, high].
+    int from_to(int low, int high) { return low + below(high - low + 1); }
+    /// In [0, 1).
+    double real() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+    glm::dvec3 integer_point(int low, int high)
+    {
+        const int x = from_to(low, high), y = from_to(low, high), z = from_to(low, high);
+        return {x, y, z};
+    }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+struct SmallScene {
+    std::string name;
+    Mesh mesh;
+};
+
+/// Scenes of few cells with integer coordinates in [0, 64]: Delaunay meshes with cells carved away, boxes that touch in
+/// parts of their faces, with and without boxes missing, and single cells of all shapes that meet anyhow but never overlap.
+std::vector<SmallScene> small_scenes();
+
+/// The Delaunay tetrahedralisation of random points with integer coordinates in [0, size], of which no five lie on a
+/// sphere; of the cells, about `keep` remain.
+Mesh carved_delaunay(int points, int size, double keep, std::uint64_t seed);
+
+/// Unit boxes times `spacing` in a grid, each missing with some probability, each whole, or two wedges, or (if `spacing`
+/// is even) six pyramids, with inner faces that do not match across.
+Mesh box_grid(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed);
+
+/// Convex cells of random shapes, with integer coordinates in [0, size], none of which overlap.
+Mesh scattered_cells(int attempts, int size, std::uint64_t seed);
+
+/// A random convex cell with integer coordinates in [low, high] and planar faces; `add_random_cell` appends its points
+/// and the cell. Not flat.
+void add_random_cell(Mesh& mesh, Random& random, int low, int high);
+
+/// Eyes with integer coordinates, or directions, that are hard on this scene: far and near ones, at a vertex, in the
+/// middle, in planes of faces, along the axes.
+std::vector<glm::dvec4> small_scene_eyes(const Scene& scene, std::uint64_t seed);
+
+} // namespace visorder
