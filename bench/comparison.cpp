@@ -68,14 +68,25 @@ bool contains(std::span<const Structure> structures, Structure structure)
 // A sorter made for a scene, or why it cannot be.
 struct Candidate {
     const SorterInfo* info;
+    std::vector<Structure> structures; // that it needs on this scene
     std::unique_ptr<Sorter> sorter;
     double make_s = 0; // without the structures that the scene derived meanwhile
     std::string skipped;
 };
 
+const SorterInfo& info_of(std::string_view name)
+{
+    const auto known = sorters();
+    return *std::find_if(known.begin(), known.end(), [&](const SorterInfo& info) { return name == info.name; });
+}
+
 Candidate make_candidate(const SorterInfo& info, const Scene& scene)
 {
-    Candidate candidate{&info, nullptr, 0, {}};
+    Candidate candidate{&info, {info.structures.begin(), info.structures.end()}, nullptr, 0, {}};
+    if (std::string_view(info.name) == "auto")
+        for (Structure structure : info_of(choose_sorter(scene).name).structures)
+            if (!contains(candidate.structures, structure))
+                candidate.structures.push_back(structure);
     const std::size_t derived_before = scene.derived().size();
     const double begin = now();
     try {
@@ -107,7 +118,7 @@ void measure(const Scene& scene, Candidate& candidate, const NamedView& view, in
     run.prepare_s = candidate.make_s;
     run.structure_bytes = sorter.bytes();
     for (const StructureRecord& record : scene.derived())
-        if (contains(candidate.info->structures, record.structure)) {
+        if (contains(candidate.structures, record.structure)) {
             run.prepare_s += record.seconds;
             run.structure_bytes += record.bytes;
         }

@@ -6,9 +6,11 @@
 #include "vtk/scalar_array.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vtkCellArray.h>
 #include <vtkCellTypes.h>
@@ -24,7 +26,7 @@ namespace visorder {
 
 namespace {
 
-/// Reading the cells of a data set with inconsistent arrays would run out of their memory.
+/// Reading the cells of a data set with inconsistent arrays would read beyond them.
 bool is_consistent(vtkDataSet& part)
 {
     if (auto* grid = vtkUnstructuredGrid::SafeDownCast(&part)) {

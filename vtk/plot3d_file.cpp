@@ -24,14 +24,15 @@ namespace visorder {
 
 namespace {
 
-/// What a point has in a kind of file, and what stands before the points.
+/// How many numbers a kind of file has before its points, and for each of them.
 struct Content {
     std::size_t parameters;
     std::size_t reals;
 };
-constexpr Content grid_content{0, 3}; // x, y, z
-constexpr Content solution_content{4,
-                                   5}; // after Mach number, angle, Reynolds number and time: density, momentum, energy
+// x, y, z
+constexpr Content grid_content{0, 3};
+// Mach number, angle of attack, Reynolds number, time; then density, momentum in three components, stagnation energy
+constexpr Content solution_content{4, 5};
 
 struct Layout {
     bool swapped;     ///< of the other byte order than this machine

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fstream>
 
 namespace visorder {
 
@@ -39,6 +40,8 @@ MeshFile read_by_ending(const std::filesystem::path& file, const std::string& sc
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
+    if (!std::ifstream(file))
+        fail(file, "cannot be opened");
 
     const std::string_view ending = known;
     if (ending == ".obj") {

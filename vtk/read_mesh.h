@@ -14,7 +14,7 @@ struct ReadOptions {
     /// The array to take, of points or of cells, by its exact name; magnitudes, if it has several components. Empty:
     /// the format's default, which is the density in Plot3D and elsewhere the first array of one component that does
     /// not hold ids, of points, else of cells.
-    std::string scalar;
+    std::string scalar = "";
     bool weld = false; ///< join points with exactly equal coordinates (see `weld`)
 };
 

@@ -122,8 +122,8 @@ void VtkCellCenter::sort(const View& view, Order& order)
     validate(view);
     const glm::dvec3 direction = projection_direction(view, middle_);
     glm::dvec3 position = glm::dvec3(view.eye) / view.eye.w;
-    // The sort reads a direction alone, as a difference of two points that VTK rounds to single precision. An eye too
-    // far away for that gives way to a point before the scene.
+    // The sort reads a direction alone, as the difference of two points, in single precision. An eye too far away for
+    // that gives way to a point before the scene.
     if (view.eye.w == 0 || !(largest(position) < std::numeric_limits<float>::max() / 2))
         position = middle_ - direction * radius_;
     const glm::dvec3 focal_point = position + direction * std::max(largest(position), 1.0);

@@ -4,6 +4,7 @@
 #include "sorting/sorter.h"
 
 #include <memory>
+#include <vector>
 
 namespace visorder {
 

@@ -119,7 +119,6 @@ TEST(FaceOverlap, ConesThatOnlyAPlaneThroughACornerOfEachSeparates)
         expect_overlap(Overlap::disjoint, f, g, eye);
     }
     expect_overlap(Overlap::disjoint, f, {{0, 20, 0.9}, {-17, -10, -1}, {17, -10, -1}}, glm::dvec4(0, 0, 0.95, 1));
-    expect_overlap(Overlap::nearer, f, {{0, 40, 1.9}, {-17, -10, -1}, {17, -10, -1}}, glm::dvec4(0, 0, -0.5, 1));
 }
 
 TEST(FaceOverlap, RepeatedAndCollinearVerticesDoNotMatter)

@@ -275,7 +275,7 @@ TEST(OrderChecker, RelationsRunThroughFlatCells)
         expect_truth<std::int64_t>("flat cell", mesh, eyes, false);
         const Scene scene(mesh);
         const OrderChecker checker(scene);
-        const Order from_above{{3, 4, 0, 1, 2}, {}, {}}, from_below{{1, 2, 0, 3, 4}, {}, {}};
+        const Order from_above{{4, 3, 0, 1, 2}, {}, {}}, from_below{{1, 2, 0, 4, 3}, {}, {}};
         EXPECT_EQ(checker.check(eyes[0], from_above).violations, 0u);
         EXPECT_GT(checker.check(eyes[0], from_below).violations, 0u);
         EXPECT_EQ(checker.check(eyes[1], from_below).violations, 0u);
@@ -401,7 +401,7 @@ TEST(OrderChecker, RejectsOrdersThatAreNoPermutation)
     cells.push_back(n - 1);
     cells.push_back(1);
     EXPECT_EQ(fault(cells), "the order lists cell 1 twice");
-    EXPECT_EQ(fault({}), "the order leaves out cell " + std::to_string(scene.caller_cells()[0]));
+    EXPECT_EQ(fault({}), "the order leaves out cell 0");
 }
 
 TEST(OrderChecker, RejectsEyesAndScenesThatHaveNoOrder)
@@ -412,9 +412,7 @@ TEST(OrderChecker, RejectsEyesAndScenesThatHaveNoOrder)
     EXPECT_THROW(checker.relations_at({0, 0, std::nan(""), 1}), InputError);
     EXPECT_THROW(checker.relations_at({0, 0, 1, std::numeric_limits<double>::infinity()}), InputError);
 
-    Mesh bent = box_grid({1, 1, 1}, 1, 0, 1);
-    while (bent.shapes[0] != CellShape::hexahedron)
-        bent = box_grid({1, 1, 1}, 1, 0, static_cast<std::uint64_t>(bent.points[0].x += 1));
+    Mesh bent = whole_boxes({1, 1, 1}, 1, 0, 1);
     bent.points[0].z -= 0.1;
     const Scene bent_scene(bent);
     EXPECT_THROW(OrderChecker{bent_scene}, InputError);

@@ -22,7 +22,8 @@ Pairs pairs_by_brute_force(const Scene& scene)
     return pairs;
 }
 
-void append(Mesh& mesh, const Mesh& more, const glm::dvec3& scale, const glm::dvec3& shift)
+// By value, so that a mesh can be appended to itself.
+void append(Mesh& mesh, Mesh more, const glm::dvec3& scale, const glm::dvec3& shift)
 {
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
     for (const glm::dvec3& p : more.points)
@@ -57,7 +58,7 @@ TEST(InteriorsOverlap, AgreesWithTheDefinitionOnRandomCells)
 TEST(InteriorsOverlap, OneUlpDecides)
 {
     for (const double gap : {0.0, 0x1p-52}) {
-        Mesh mesh = box_grid({1, 1, 1}, 1, 0, 1);
+        Mesh mesh = whole_boxes({1, 1, 1}, 1, 0, 1);
         append(mesh, mesh, glm::dvec3(1), glm::dvec3(1 - gap, 0.25, 0.3));
         const Scene scene(mesh);
         for (CellId a = 0; a < scene.cell_count(); ++a)
@@ -98,18 +99,18 @@ TEST(OverlappingCells, RandomCellsOverlapAsTheDefinitionHasIt)
 TEST(OverlappingCells, AMeshWithinAnotherOverlapsItThoughTheirBoundariesDoNotMeet)
 {
     // One box in the middle cell of 3 x 3 x 3, which owns no boundary face.
-    Mesh mesh = box_grid({3, 3, 3}, 4, 0, 5);
-    append(mesh, box_grid({1, 1, 1}, 1, 0, 1), glm::dvec3(1), glm::dvec3(5, 5.5, 5));
+    Mesh mesh = whole_boxes({3, 3, 3}, 4, 0, 5);
+    append(mesh, whole_boxes({1, 1, 1}, 1, 0, 1), glm::dvec3(1), glm::dvec3(5, 5.5, 5));
     const Scene scene(mesh);
     const Pairs expected = pairs_by_brute_force(scene);
-    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(expected.size(), 1u);
     EXPECT_EQ(overlapping_cells(scene), expected);
 }
 
 TEST(OverlappingCells, AMeshOnTopOfItselfOverlaps)
 {
     Mesh mesh = carved_delaunay(8, 20, 1, 2);
-    append(mesh, Mesh(mesh), glm::dvec3(1), glm::dvec3(0));
+    append(mesh, mesh, glm::dvec3(1), glm::dvec3(0));
     const Scene scene(mesh);
     const Pairs pairs = overlapping_cells(scene);
     EXPECT_GE(pairs.size(), scene.cell_count() / 2);

@@ -40,6 +40,38 @@ std::array<glm::dvec3, 8> parallelepiped(const glm::dvec3& origin, const glm::dv
             origin + z,     origin + x + z,     origin + x + y + z,     origin + y + z};
 }
 
+// Of the kinds: whole, whole, wedges, pyramids.
+Mesh boxes_of_kinds(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed, int kinds)
+{
+    Random random(seed);
+    Mesh mesh;
+    for (int i = 0; i < boxes.x; ++i)
+        for (int j = 0; j < boxes.y; ++j)
+            for (int k = 0; k < boxes.z; ++k) {
+                if (random.real() < missing)
+                    continue;
+                const glm::dvec3 origin(i * spacing, j * spacing, k * spacing);
+                std::array<std::uint32_t, 8> v;
+                const auto corners = parallelepiped(origin, {spacing, 0, 0}, {0, spacing, 0}, {0, 0, spacing});
+                std::transform(corners.begin(), corners.end(), v.begin(),
+                               [&](const glm::dvec3& p) { return shared_point(mesh, p); });
+                const int kind = random.below(kinds);
+                if (kind < 2) {
+                    mesh.add(CellShape::hexahedron, v);
+                } else if (kind == 2) {
+                    mesh.add(CellShape::wedge, std::array{v[0], v[3], v[1], v[4], v[7], v[5]});
+                    mesh.add(CellShape::wedge, std::array{v[1], v[3], v[2], v[5], v[7], v[6]});
+                } else {
+                    const std::uint32_t middle = shared_point(mesh, origin + glm::dvec3(spacing / 2));
+                    for (int face = 0; face < 6; ++face) {
+                        const auto f = face_vertices(CellShape::hexahedron, face);
+                        mesh.add(CellShape::pyramid, std::array{v[f[0]], v[f[1]], v[f[2]], v[f[3]], middle});
+                    }
+                }
+            }
+    return mesh.cell_count() > 0 ? mesh : boxes_of_kinds(boxes, spacing, 0, seed, kinds);
+}
+
 } // namespace
 
 Mesh carved_delaunay(int points, int size, double keep, std::uint64_t seed)
@@ -93,35 +125,12 @@ Mesh carved_delaunay(int points, int size, double keep, std::uint64_t seed)
 
 Mesh box_grid(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed)
 {
-    Random random(seed);
-    Mesh mesh;
-    for (int i = 0; i < boxes.x; ++i)
-        for (int j = 0; j < boxes.y; ++j)
-            for (int k = 0; k < boxes.z; ++k) {
-                if (random.real() < missing)
-                    continue;
-                const glm::dvec3 origin(i * spacing, j * spacing, k * spacing);
-                std::array<std::uint32_t, 8> v;
-                const auto corners = parallelepiped(origin, {spacing, 0, 0}, {0, spacing, 0}, {0, 0, spacing});
-                std::transform(corners.begin(), corners.end(), v.begin(),
-                               [&](const glm::dvec3& p) { return shared_point(mesh, p); });
-                const int kind = random.below(spacing % 2 == 0 ? 4 : 3);
-                if (kind < 2) {
-                    mesh.add(CellShape::hexahedron, v);
-                } else if (kind == 2) {
-                    mesh.add(CellShape::wedge, std::array{v[0], v[3], v[1], v[4], v[7], v[5]});
-                    mesh.add(CellShape::wedge, std::array{v[1], v[3], v[2], v[5], v[7], v[6]});
-                } else {
-                    const std::uint32_t middle = shared_point(mesh, origin + glm::dvec3(spacing / 2));
-                    for (int face = 0; face < 6; ++face) {
-                        const auto f = face_vertices(CellShape::hexahedron, face);
-                        mesh.add(CellShape::pyramid, std::array{v[f[0]], v[f[1]], v[f[2]], v[f[3]], middle});
-                    }
-                }
-            }
-    if (mesh.cell_count() == 0)
-        return box_grid(boxes, spacing, 0, seed);
-    return mesh;
+    return boxes_of_kinds(boxes, spacing, missing, seed, spacing % 2 == 0 ? 4 : 3);
+}
+
+Mesh whole_boxes(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed)
+{
+    return boxes_of_kinds(boxes, spacing, missing, seed, 1);
 }
 
 void add_random_cell(Mesh& mesh, Random& random, int low, int high)
@@ -187,6 +196,7 @@ std::vector<SmallScene> small_scenes()
         scenes.push_back({"carved delaunay" + suffix, carved_delaunay(7 + i % 4, 64, 0.5, seed)});
         scenes.push_back({"whole delaunay" + suffix, carved_delaunay(6 + i % 4, 40, 1, seed)});
         scenes.push_back({"boxes" + suffix, box_grid({2, 2 + i % 2, 2}, 1 + i % 3, 0.4, seed)});
+        scenes.push_back({"whole boxes" + suffix, whole_boxes({3, 2, 2}, 1 + i % 3, 0.4, seed)});
         scenes.push_back({"scattered cells, close" + suffix, scattered_cells(60, 4, seed)});
         scenes.push_back({"scattered cells" + suffix, scattered_cells(25, 12 + i, seed)});
     }

@@ -48,8 +48,11 @@ std::vector<SmallScene> small_scenes();
 Mesh carved_delaunay(int points, int size, double keep, std::uint64_t seed);
 
 /// Unit boxes times `spacing` in a grid, each missing with some probability, each whole, or two wedges, or (if `spacing`
-/// is even) six pyramids, with inner faces that do not match across.
+/// is even) six pyramids; faces of different kinds of boxes need not match where they meet.
 Mesh box_grid(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed);
+
+/// The same of whole boxes, so that all faces between them match.
+Mesh whole_boxes(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed);
 
 /// Convex cells of random shapes, with integer coordinates in [0, size], none of which overlap.
 Mesh scattered_cells(int attempts, int size, std::uint64_t seed);

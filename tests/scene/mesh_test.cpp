@@ -11,10 +11,8 @@
 #include <string>
 #include <tuple>
 
-namespace visorder
-{
-namespace
-{
+namespace visorder {
+namespace {
 
 /// Two tetrahedra that share a face.
 Mesh two_tetrahedra()

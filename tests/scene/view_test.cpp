@@ -10,10 +10,8 @@
 #include <string>
 #include <vector>
 
-namespace visorder
-{
-namespace
-{
+namespace visorder {
+namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();

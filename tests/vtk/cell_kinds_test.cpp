@@ -1,9 +1,9 @@
 // Every VTK cell type: what shape it becomes, in which order its corners stand.
 
-#include "tests/vtk/reading_error.h"
-#include "tests/vtk/temporary_folder.h"
-#include "tests/vtk/vtu_text.h"
+#include "reading_error.h"
+#include "temporary_folder.h"
 #include "vtk/read_mesh.h"
+#include "vtu_text.h"
 
 #include <gmock/gmock.h>
 #include <numeric>
@@ -88,9 +88,9 @@ TEST(CellKinds, TakesTheCornersOfCellsOfHigherOrder)
         const MeshFile file = read(cell_of(type, points));
         EXPECT_THAT(file.mesh.shapes, ElementsAre(shape)) << type;
         EXPECT_EQ(file.mesh.points.size(), static_cast<std::size_t>(vertex_count(shape)));
-        EXPECT_THAT(file.notes, ElementsAre("1 cells of higher order taken by their corners",
-                                            fmt::format("{} points that no cell uses left out",
-                                                        points - vertex_count(shape))));
+        EXPECT_THAT(file.notes,
+                    ElementsAre("1 cells of higher order taken by their corners",
+                                fmt::format("{} points that no cell uses left out", points - vertex_count(shape))));
     }
 }
 
@@ -98,8 +98,7 @@ TEST(CellKinds, RefusesSolidsWithoutAShape)
 {
     VtuText vtu = cell_of(VTK_HEXAHEDRON, 8);
     vtu.cells.push_back({VTK_PENTAGONAL_PRISM, {0, 1, 2, 3, 4, 5, 6, 7, 0, 1}});
-    EXPECT_EQ(reading_error(folder.write("mesh.vtu", vtu.str())),
-              "cell 1: there is no shape for a vtkPentagonalPrism");
+    EXPECT_EQ(reading_error(folder.write("mesh.vtu", vtu.str())), "cell 1: there is no shape for a vtkPentagonalPrism");
     EXPECT_THAT(reading_error(folder.write("mesh.vtu", cell_of(VTK_CONVEX_POINT_SET, 6).str())),
                 HasSubstr("vtkConvexPointSet"));
 }
@@ -114,8 +113,7 @@ TEST(CellKinds, LeavesOutSurfacesAndLinesBesideSolids)
     vtu.cells.push_back({VTK_QUADRATIC_EDGE, {0, 1, 2}});
     const MeshFile file = read(vtu);
     EXPECT_THAT(file.mesh.shapes, ElementsAre(CellShape::tetrahedron));
-    EXPECT_THAT(file.notes,
-                ElementsAre("2 surface cells beside the solids left out", "3 vertices and lines left out"));
+    EXPECT_THAT(file.notes, ElementsAre("2 surface cells beside the solids left out", "3 vertices and lines left out"));
 }
 
 TEST(CellKinds, MakesASurfaceOfSurfaceCells)

@@ -1,9 +1,10 @@
 // What is taken of a file: points, cells, scalars; and what of a file is refused. By .vtu files, which hold everything.
 
-#include "tests/vtk/reading_error.h"
-#include "tests/vtk/temporary_folder.h"
-#include "tests/vtk/vtu_text.h"
+#include "reading_error.h"
+#include "temporary_folder.h"
+#include "vtu_text.h"
 
+#include <atomic>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <thread>
@@ -160,8 +161,7 @@ TEST(Vtu, RefusesAFileThatIsNotThere)
 TEST(Vtu, RefusesAnUnknownEnding)
 {
     const auto file = folder.write("mesh.stl", "solid");
-    EXPECT_EQ(reading_error(file),
-              "not a name of a mesh file; they end in .vtu, .vtk, .ex2, .e, .exo, xyz.bin, .obj");
+    EXPECT_EQ(reading_error(file), "not a name of a mesh file; they end in .vtu, .vtk, .ex2, .e, .exo, xyz.bin, .obj");
     EXPECT_THAT(reading_error(folder.write("mesh", "solid")), HasSubstr("not a name of a mesh file"));
 }
 

@@ -1,0 +1,162 @@
+#include "temporary_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace visorder {
+namespace {
+
+struct Outcome {
+    int code;
+    std::string output; // standard output and error
+};
+
+Outcome run(const std::string& arguments)
+{
+    const std::string command = std::string(VISORDER_TOOL) + " " + arguments + " 2>&1 </dev/null";
+    FILE* pipe = popen(command.c_str(), "r");
+    Outcome outcome{-1, {}};
+    std::array<char, 4096> buffer;
+    for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        outcome.output.append(buffer.data(), n);
+    outcome.code = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+std::string read(const std::filesystem::path& file)
+{
+    std::ifstream in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+void expect_one_line_and_code_2(const std::string& arguments, const std::string& part)
+{
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << arguments << "\n" << outcome.output;
+    EXPECT_NE(outcome.output.find(part), std::string::npos) << arguments << "\n" << outcome.output;
+}
+
+TEST(Tool, SortsAndChecksWhatItSorted)
+{
+    const TemporaryFolder folder;
+    for (const char* name : {"order.txt", "order.npy"})
+        for (const char* view : {"--eye 3,2,1", "--direction 0,0,1"}) {
+            const std::string file = (folder / name).string();
+            const Outcome sorted = run("sort --scene delaunay:2000 --sorter mpvo " + std::string(view) + " -o " + file);
+            ASSERT_EQ(sorted.code, 0) << sorted.output;
+            const Outcome checked = run("check --scene delaunay:2000 " + file + " " + view);
+            EXPECT_EQ(checked.code, 0) << checked.output;
+            EXPECT_TRUE(checked.output.starts_with("0 of ")) << checked.output;
+        }
+    // Seen from the other side, the same order is wrong, and the check shows where.
+    const std::string order = (folder / "order.npy").string();
+    const Outcome wrong = run("check --scene delaunay:2000 " + order + " --direction 0,0,-1 --witnesses 3");
+    EXPECT_EQ(wrong.code, 1) << wrong.output;
+    EXPECT_NE(wrong.output.find("is painted before it"), std::string::npos) << wrong.output;
+}
+
+TEST(Tool, ComparesAndWritesTheResultFormat)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "result.json").string();
+    const Outcome outcome = run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --json " + file);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const auto result = nlohmann::json::parse(read(file));
+    for (const char* key : {"visorder", "machine", "scenes", "runs"})
+        ASSERT_TRUE(result.contains(key)) << key;
+    for (const char* key : {"cpu", "threads", "gl_renderer"})
+        EXPECT_TRUE(result["machine"].contains(key)) << key;
+    ASSERT_EQ(result["scenes"].size(), 3u);
+    EXPECT_TRUE(result["scenes"][0]["convex"]);
+    EXPECT_FALSE(result["scenes"][1]["convex"]);
+    std::size_t wrong_centroid = 0, wrong_mpvo_convex = 0, wrong_mpvo_carved = 0, pinwheel_cycles = 0;
+    for (const auto& run : result["runs"]) {
+        for (const char* key : {"scene", "view", "sorter", "guarantee", "prepare_s", "sort_s", "structure_bytes",
+                                "relations", "violations", "cycles", "cells_in_cycles", "image_rmse", "image_max"})
+            ASSERT_TRUE(run.contains(key)) << key;
+        EXPECT_GT(run["sort_s"], 0);
+        EXPECT_GT(run["relations"], 0);
+        const std::size_t violations = run["violations"];
+        if (run["sorter"] == "centroid")
+            wrong_centroid += violations;
+        if (run["sorter"] == "mpvo") {
+            (run["scene"] == "delaunay:1500" ? wrong_mpvo_convex : wrong_mpvo_carved) += violations;
+            if (run["scene"] == "pinwheel")
+                pinwheel_cycles += run["cycles"].get<std::size_t>();
+        }
+    }
+    EXPECT_GT(wrong_centroid, 0u);
+    EXPECT_EQ(wrong_mpvo_convex, 0u);
+    EXPECT_GT(wrong_mpvo_carved, 0u);
+    EXPECT_GT(pinwheel_cycles, 0u);
+    EXPECT_EQ(outcome.output.find('\033'), std::string::npos) << "no colours and no progress outside of a terminal";
+}
+
+TEST(Tool, InspectsAndLists)
+{
+    const Outcome inspected = run("inspect --scene fin:3000");
+    EXPECT_EQ(inspected.code, 0);
+    for (const char* part : {"tetrahedron", "convex          no", "auto            mpvo"})
+        EXPECT_NE(inspected.output.find(part), std::string::npos) << part << "\n" << inspected.output;
+    const Outcome whole = run("inspect --scene grid:600 --whole");
+    EXPECT_NE(whole.output.find("hexahedron"), std::string::npos) << whole.output;
+    const Outcome listed = run("sorters");
+    EXPECT_EQ(listed.code, 0);
+    EXPECT_NE(listed.output.find("Williams 1992"), std::string::npos) << listed.output;
+}
+
+TEST(Tool, AnswersBadInputWithOneLineAndCode2)
+{
+    const TemporaryFolder folder;
+    const std::string out = (folder / "order.txt").string();
+    expect_one_line_and_code_2("", "subcommand");
+    expect_one_line_and_code_2("compare --scene nowhere", "nowhere");
+    expect_one_line_and_code_2("compare --scene delaunay:0", "delaunay:0");
+    expect_one_line_and_code_2("compare --sorters quicksort --scene delaunay:500", "quicksort");
+    expect_one_line_and_code_2("compare --size 512 --scene delaunay:500", "--size");
+    expect_one_line_and_code_2("compare --views 0", "--views");
+    expect_one_line_and_code_2("compare --threads 0", "--threads");
+    expect_one_line_and_code_2("compare --scene delaunay:500 --json /nowhere/result.json", "/nowhere/result.json");
+    expect_one_line_and_code_2("sort --scene delaunay:500 -o " + out, "no view");
+    expect_one_line_and_code_2("sort --eye 1,2,3 -o " + out, "no mesh");
+    expect_one_line_and_code_2("sort --scene delaunay:500 --eye 1,2 -o " + out, "--eye");
+    expect_one_line_and_code_2("sort --scene delaunay:500 --eye nan,0,0 -o " + out, "eye");
+    expect_one_line_and_code_2("sort --scene delaunay:500 --direction 0,0,0 -o " + out, "eye");
+    expect_one_line_and_code_2("sort --scene delaunay:500 --eye 1,2,3 --direction 1,0,0 -o " + out, "exclude");
+    expect_one_line_and_code_2("check --scene delaunay:500 /nowhere/order.txt --eye 1,2,3", "/nowhere/order.txt");
+    std::ofstream(out) << "0\n1\n1\n";
+    expect_one_line_and_code_2("check --scene delaunay:500 " + out + " --eye 1,2,3", "cell 1 twice");
+    expect_one_line_and_code_2("inspect /nowhere/mesh.vtu", "/nowhere/mesh.vtu");
+    std::filesystem::remove(out);
+    expect_one_line_and_code_2("sort --scene delaunay:500 --sorter quicksort --eye 1,2,3 -o " + out, "quicksort");
+    EXPECT_FALSE(std::filesystem::exists(out)) << "nothing half-done";
+}
+
+#if defined(VISORDER_WITH_VTK)
+TEST(Tool, OrdersARealMeshWithTheMapBackToItsCells)
+{
+    const std::filesystem::path fin = std::filesystem::path(VISORDER_DATA_DIR) / "volumes/bluntfinxyz.bin";
+    if (!std::filesystem::exists(fin))
+        GTEST_SKIP() << "needs " << fin;
+    const TemporaryFolder folder;
+    const std::string order = (folder / "order.npy").string(), map = (folder / "map.txt").string();
+    const Outcome sorted = run("sort " + fin.string() + " --eye 20,5,9 -o " + order + " --map " + map);
+    ASSERT_EQ(sorted.code, 0) << sorted.output;
+    const std::string text = read(map);
+    EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 37479 * 5);
+    EXPECT_NE(run("check " + fin.string() + " " + order + " --eye 20,5,9").code, 2);
+}
+#endif
+
+} // namespace
+} // namespace visorder

@@ -1,0 +1,125 @@
+#include "scene/adjacency.h"
+
+#include "meshes.h"
+#include "scene/error.h"
+#include "scene/face_loop.h"
+#include "scene/scene.h"
+#include "scene/subdivision.h"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+namespace visorder {
+namespace {
+
+// Which cells share a face by comparing all of them, in the caller's numbering.
+std::set<std::pair<CellId, CellId>> pairs_by_brute_force(const Mesh& mesh)
+{
+    std::map<std::set<PointId>, std::vector<CellId>> faces;
+    for (CellId cell = 0; cell < mesh.cell_count(); ++cell) {
+        const auto v = mesh.cell(cell);
+        if (std::set<PointId>(v.begin(), v.end()).size() < 4)
+            continue;
+        for (int face = 0; face < face_count(mesh.shapes[cell]); ++face) {
+            const FaceLoop loop = face_loop(mesh, cell, face);
+            if (loop.count >= 3)
+                faces[{loop.begin(), loop.end()}].push_back(cell);
+        }
+    }
+    std::set<std::pair<CellId, CellId>> pairs;
+    for (const auto& [key, cells] : faces)
+        if (cells.size() == 2)
+            pairs.emplace(std::min(cells[0], cells[1]), std::max(cells[0], cells[1]));
+    return pairs;
+}
+
+std::set<std::pair<CellId, CellId>> pairs_of(const Scene& scene)
+{
+    std::set<std::pair<CellId, CellId>> pairs;
+    const Adjacency& adjacency = scene.adjacency();
+    for (CellId cell = 0; cell < scene.cell_count(); ++cell)
+        for (std::size_t face = 0; face < adjacency.row(cell).size(); ++face) {
+            const CellId neighbour = adjacency.row(cell)[face];
+            EXPECT_EQ((adjacency.interior[cell] >> face & 1) != 0, neighbour != cell);
+            if (neighbour == cell)
+                continue;
+            const auto back = adjacency.row(neighbour);
+            EXPECT_NE(std::find(back.begin(), back.end(), cell), back.end());
+            const CellId a = scene.caller_cells()[cell], b = scene.caller_cells()[neighbour];
+            pairs.emplace(std::min(a, b), std::max(a, b));
+        }
+    return pairs;
+}
+
+TEST(Adjacency, IsThatOfBruteForceOnBoxesTetrahedraAndTheZoo)
+{
+    for (const Mesh& mesh : {cubes(4), subdivide(cubes(4)).mesh, zoo(), subdivide(zoo()).mesh, two_tetrahedra(),
+                             cubes(3, [](int x, int y, int z) { return (x + y + z) % 2 == 0; })})
+        EXPECT_EQ(pairs_of(Scene(mesh)), pairs_by_brute_force(mesh)) << mesh.cell_count() << " cells";
+}
+
+TEST(Adjacency, FindsManyFacesAtOnePoint)
+{
+    // A fan of tetrahedra around the edge 0-1, whose faces all have point 0 as their lowest.
+    Mesh mesh;
+    const std::uint32_t n = 200;
+    mesh.points = {{0, 0, -1}, {0, 0, 1}};
+    for (std::uint32_t i = 0; i < n; ++i)
+        mesh.points.emplace_back(std::cos(i * 0.03), std::sin(i * 0.03), 0);
+    for (std::uint32_t i = 0; i + 1 < n; ++i)
+        add_tetrahedron(mesh, 0, 2 + i, 3 + i, 1);
+    EXPECT_EQ(pairs_of(Scene(mesh)), pairs_by_brute_force(mesh));
+}
+
+TEST(Adjacency, RefusesAFaceOfThreeCellsAndNamesThem)
+{
+    Mesh mesh = two_tetrahedra();
+    mesh.points.emplace_back(2, 2, 2);
+    add_tetrahedron(mesh, 1, 2, 3, 5);
+    const Scene scene(std::move(mesh));
+    try {
+        scene.adjacency();
+        FAIL() << "no exception";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "cells 0, 1 and 2 share one face; at most two can");
+    }
+    EXPECT_THROW(scene.adjacency(), InputError) << "asked again";
+}
+
+TEST(Adjacency, PassesThroughCellsWithRepeatedVertices)
+{
+    // Between the two lies a tetrahedron collapsed onto their common face.
+    Mesh mesh = two_tetrahedra();
+    add_tetrahedron(mesh, 1, 2, 3, 3);
+    const auto pairs = pairs_of(Scene(mesh));
+    EXPECT_EQ(pairs, (std::set<std::pair<CellId, CellId>>{{0, 1}}));
+}
+
+TEST(Adjacency, JoinsTrianglesAcrossEdgesOfTwoAlone)
+{
+    Mesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {2, 0, 0}};
+    mesh.add(CellShape::triangle, std::array{0u, 1u, 2u});
+    mesh.add(CellShape::triangle, std::array{1u, 3u, 2u});
+    mesh.add(CellShape::triangle, std::array{1u, 5u, 3u});
+    EXPECT_EQ(pairs_of(Scene(mesh)), (std::set<std::pair<CellId, CellId>>{{0, 1}, {1, 2}}));
+    mesh.add(CellShape::triangle, std::array{1u, 2u, 4u});
+    EXPECT_EQ(pairs_of(Scene(mesh)), (std::set<std::pair<CellId, CellId>>{{1, 2}}));
+}
+
+TEST(Boundary, CountsFacesAndComponents)
+{
+    const Scene block(cubes(3));
+    EXPECT_EQ(block.boundary().faces.size(), 54u);
+    EXPECT_EQ(block.boundary().component_count, 1u);
+    const Scene hollow(cubes(3, [](int x, int y, int z) { return x != 1 || y != 1 || z != 1; }));
+    EXPECT_EQ(hollow.boundary().faces.size(), 60u);
+    EXPECT_EQ(hollow.boundary().component_count, 2u);
+    const Scene apart(cubes(3, [](int x, int, int) { return x != 1; }));
+    EXPECT_EQ(apart.boundary().component_count, 2u);
+}
+
+} // namespace
+} // namespace visorder
