@@ -1,12 +1,12 @@
 #include "bench/report.h"
 
+#include "scene/concurrency.h"
 #include "version.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <oneapi/tbb/task_arena.h>
 
 namespace visorder {
 
@@ -112,7 +112,7 @@ nlohmann::ordered_json or_null(const std::optional<T>& value)
 
 Machine this_machine()
 {
-    Machine machine{"unknown", oneapi::tbb::this_task_arena::max_concurrency(), "none"};
+    Machine machine{"unknown", static_cast<int>(concurrency()), "none"};
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);)
         if (line.starts_with("model name")) {

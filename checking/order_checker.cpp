@@ -13,11 +13,11 @@
 #include <bit>
 #include <fmt/format.h>
 #include <limits>
-#include <stdexcept>
-#include <span>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
+#include <span>
+#include <stdexcept>
 
 namespace visorder {
 
@@ -25,7 +25,8 @@ namespace {
 
 using Pair = std::pair<CellId, CellId>;
 
-template <class Body> void each_cell(const Scene& scene, const Body& body)
+template <class Body>
+void each_cell(const Scene& scene, const Body& body)
 {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, scene.cell_count(), 4096), [&](const auto& range) {
         for (CellId cell = range.begin(); cell < range.end(); ++cell)
@@ -33,7 +34,10 @@ template <class Body> void each_cell(const Scene& scene, const Body& body)
     });
 }
 
-Pair ascending(CellId a, CellId b) { return {std::min(a, b), std::max(a, b)}; }
+Pair ascending(CellId a, CellId b)
+{
+    return {std::min(a, b), std::max(a, b)};
+}
 
 void sort_unique(std::vector<Pair>& pairs)
 {
@@ -50,8 +54,8 @@ void require_planar_faces(const Scene& scene)
     const auto is_planar = [&](CellId cell, int face) {
         const FaceLoop loop = face_loop(mesh, cell, face);
         const PointId* v = loop.begin();
-        return loop.count < 4 || side_of_plane(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]],
-                                               mesh.points[v[3]]) == Sign::zero;
+        return loop.count < 4 ||
+               side_of_plane(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) == Sign::zero;
     };
     constexpr CellId none = std::numeric_limits<CellId>::max();
     std::atomic<CellId> lowest{none};
@@ -60,8 +64,7 @@ void require_planar_faces(const Scene& scene)
             if (!is_planar(cell, face)) {
                 CellId known = lowest.load();
                 const CellId caller = scene.caller_cells()[cell];
-                while (caller < known && !lowest.compare_exchange_weak(known, caller)) {
-                }
+                while (caller < known && !lowest.compare_exchange_weak(known, caller)) {}
                 return;
             }
     });
@@ -85,7 +88,8 @@ SeenFace seen(const Scene& scene, const CellFace& face, const glm::dvec4& eye)
     return seen_face(std::span(points).first(count), eye);
 }
 
-// The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such cells.
+// The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such
+// cells.
 class Peeling {
 public:
     Peeling(CellId cells, const Relations& relations) : backs_begin_(std::size_t{cells} + 1), obstructing_(cells)
@@ -202,7 +206,9 @@ private:
 } // namespace
 
 Relations::Relations(const Scene& scene, const glm::dvec4& eye, const std::vector<Pair>& overlapping)
-    : scene_(&scene), adjacency_(scene.is_surface() ? nullptr : &scene.adjacency()), eye_(eye),
+    : scene_(&scene),
+      adjacency_(scene.is_surface() ? nullptr : &scene.adjacency()),
+      eye_(eye),
       on_demand_(std::make_unique<OnDemand>())
 {
     if (!scene.is_surface())

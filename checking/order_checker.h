@@ -30,7 +30,7 @@ struct Violation {
 
 /// What is wrong with an order. Cells in the caller's numbering.
 struct CheckResult {
-    std::size_t relations = 0; ///< distinct pairs (front, back), without those of cells that overlap in space
+    std::size_t relations = 0;  ///< distinct pairs (front, back), without those of cells that overlap in space
     std::size_t violations = 0; ///< how many of the relations the order does not satisfy, outside of `unorderable` sets
     std::size_t violations_in_cycles = 0; ///< and within them, where some relation must always go unsatisfied
     std::vector<Violation> witnesses;     ///< the first of `violations`, ascending by front and back
@@ -43,15 +43,16 @@ struct CheckResult {
     bool order_exists() const { return unorderable.empty(); }
 };
 
-/// Every relation that an order of a scene has to satisfy from one eye: made by OrderChecker::relations_at, to check any
-/// number of orders. Refers to the checker's Scene, which must outlive it; threads may share it.
+/// Every relation that an order of a scene has to satisfy from one eye: made by OrderChecker::relations_at, to check
+/// any number of orders. Refers to the checker's Scene, which must outlive it; threads may share it.
 class Relations {
 public:
     const glm::dvec4& eye() const { return eye_; }
     /// Distinct pairs (front, back), without those of cells that overlap in space.
     std::size_t count() const { return count_; }
     /// Calls visit(front, back) once for each, in the inner numbering.
-    template <class Visit> void visit(Visit&& visit) const
+    template <class Visit>
+    void visit(Visit&& visit) const
     {
         visit_interior(0, scene_->cell_count(), visit);
         for (const Relation& relation : boundary_)
@@ -77,9 +78,10 @@ private:
     UnorderableSets find_unorderable() const;
     const UnorderableSets& unorderable() const;
 
-    // Relations across interior faces are kept at the cell with the lower number: bits of its exit faces, and, above, of
-    // its entry faces.
-    template <class Visit> void visit_interior(CellId begin, CellId end, Visit&& visit) const
+    // Relations across interior faces are kept at the cell with the lower number: bits of its exit faces, and, above,
+    // of its entry faces.
+    template <class Visit>
+    void visit_interior(CellId begin, CellId end, Visit&& visit) const
     {
         for (CellId cell = begin; cell < end && !interior_.empty(); ++cell)
             for (std::uint32_t bits = interior_[cell], face = 0; bits != 0; bits >>= 1, ++face)
@@ -102,11 +104,11 @@ private:
     std::unique_ptr<OnDemand> on_demand_;
 };
 
-/// Holds orders of a scene's cells against all relations of its cells from an eye: across every interior face whose plane
-/// the eye is not in, and from the owner of every exit boundary face to the owner of every entry face that it covers in
-/// part. In a mesh whose cells meet face to face, or touch in any way without overlapping, an order is right if and only
-/// if it satisfies these (Williams 1992; Silva, Mitchell and Williams 1998). In a surface scene, the relations are all
-/// pairs of triangles of which one covers the other.
+/// Holds orders of a scene's cells against all relations of its cells from an eye: across every interior face whose
+/// plane the eye is not in, and from the owner of every exit boundary face to the owner of every entry face that it
+/// covers in part. In a mesh whose cells meet face to face, or touch in any way without overlapping, an order is right
+/// if and only if it satisfies these (Williams 1992; Silva, Mitchell and Williams 1998). In a surface scene, the
+/// relations are all pairs of triangles of which one covers the other.
 ///
 /// All decisions are exact, and none is shared with the sorters but the predicates themselves. Results do not depend on
 /// the number of threads. The Scene must outlive the checker; any number of threads may use one.
@@ -132,7 +134,7 @@ private:
     glm::dvec3 witness(const Relations& relations, CellId front, CellId back) const;
 
     const Scene& scene_;
-    LargeArray<CellId> inner_cells_; // of the caller's
+    LargeArray<CellId> inner_cells_;                              // of the caller's
     Derived<std::vector<std::pair<CellId, CellId>>> overlapping_; // inner numbering, a < b, ascending
 };
 

@@ -18,8 +18,8 @@
 // is not folded, each of the two goes on into exactly one cell, and two different cells into two different ones. The
 // scene being finite, one of the two comes to a boundary face, of cell c, inside the other, d; c and d overlap there.
 // Now walk over the piece of the boundary that this face belongs to, just inside. Either the other cell goes on into a
-// neighbour all the way, and then the owner of every face of the piece overlaps some cell; or it ends at a boundary face
-// too, and there two owners of boundary faces overlap. So a scene without overlaps is one with
+// neighbour all the way, and then the owner of every face of the piece overlaps some cell; or it ends at a boundary
+// face too, and there two owners of boundary faces overlap. So a scene without overlaps is one with
 //   no folded interior face,
 //   no two overlapping owners of boundary faces, and
 //   of each piece of the boundary one face whose owner overlaps no cell.
@@ -61,8 +61,8 @@ bool interiors_meet(const Box& a, const Box& b)
            b.min.z < a.max.z;
 }
 
-// Whether the plane through three points has all of a weakly on one side and all of b weakly on the other. The three may
-// be collinear: then they span no plane, and all of a solid cell seems to lie in it.
+// Whether the plane through three points has all of a weakly on one side and all of b weakly on the other. The three
+// may be collinear: then they span no plane, and all of a solid cell seems to lie in it.
 bool plane_separates(const Mesh& mesh, const FaceTriple& plane, const Vertices& a, const Vertices& b)
 {
     const auto side = [&](PointId v) {
@@ -112,10 +112,10 @@ bool edge_and_vertex_separate(const Mesh& mesh, const Vertices& a, const Vertice
     return false;
 }
 
-// Two convex bodies with interiors have these in common unless a plane separates the bodies weakly. The separating planes
-// n x <= c of a, n x >= c of b are the rays of a polyhedral cone of (n, c) without a line in it, so if there are any, one
-// is an extreme ray: a plane that holds three vertices of the two which span it. Three of a lie in one face of a then;
-// else two of them are an edge of one, and the third is a vertex of the other.
+// Two convex bodies with interiors have these in common unless a plane separates the bodies weakly. The separating
+// planes n x <= c of a, n x >= c of b are the rays of a polyhedral cone of (n, c) without a line in it, so if there are
+// any, one is an extreme ray: a plane that holds three vertices of the two which span it. Three of a lie in one face of
+// a then; else two of them are an edge of one, and the third is a vertex of the other.
 bool solids_overlap(const Mesh& mesh, CellId a, CellId b)
 {
     const Vertices of_a = distinct_vertices(mesh, a), of_b = distinct_vertices(mesh, b);
@@ -152,10 +152,9 @@ private:
 
     bool is_folded(const CellFace& face) const
     {
-        return std::binary_search(orientations_.folded.begin(), orientations_.folded.end(), face,
-                                  [](const CellFace& a, const CellFace& b) {
-                                      return std::pair(a.cell, a.face) < std::pair(b.cell, b.face);
-                                  });
+        return std::binary_search(
+            orientations_.folded.begin(), orientations_.folded.end(), face,
+            [](const CellFace& a, const CellFace& b) { return std::pair(a.cell, a.face) < std::pair(b.cell, b.face); });
     }
 
     // The solid cells with a face on whose other side is no solid one, ascending; and those of them that stand for a
@@ -205,23 +204,22 @@ private:
         const BoxHierarchy hierarchy(boxes);
         std::vector<Box>().swap(boxes);
         std::atomic<bool> go_on{true};
-        oneapi::tbb::parallel_for(
-            oneapi::tbb::blocked_range<std::size_t>(0, query_count, 256), [&](const auto& range) {
-                for (std::size_t i = range.begin(); i < range.end() && go_on.load(std::memory_order_relaxed); ++i) {
-                    const CellId a = queries(i);
-                    if (!is_solid(a))
-                        continue;
-                    const Box box = box_of(mesh_, a);
-                    hierarchy.search([&](const Box& other) { return interiors_meet(box, other); },
-                                     [&](std::uint32_t k) {
-                                         const CellId b = cells(k);
-                                         if (a != b && is_solid(b) && visit.wants(a, b) && overlap(a, b) &&
-                                             !visit.found(a, b))
-                                             go_on.store(false, std::memory_order_relaxed);
-                                         return go_on.load(std::memory_order_relaxed);
-                                     });
-                }
-            });
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, query_count, 256), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end() && go_on.load(std::memory_order_relaxed); ++i) {
+                const CellId a = queries(i);
+                if (!is_solid(a))
+                    continue;
+                const Box box = box_of(mesh_, a);
+                hierarchy.search([&](const Box& other) { return interiors_meet(box, other); },
+                                 [&](std::uint32_t k) {
+                                     const CellId b = cells(k);
+                                     if (a != b && is_solid(b) && visit.wants(a, b) && overlap(a, b) &&
+                                         !visit.found(a, b))
+                                         go_on.store(false, std::memory_order_relaxed);
+                                     return go_on.load(std::memory_order_relaxed);
+                                 });
+            }
+        });
     }
 
     bool overlap_at_boundary() const
@@ -245,8 +243,9 @@ private:
             return true;
         const auto owner_of_piece = [&](std::size_t i) { return owners.of_pieces[i]; };
         Any with_pieces{false};
-        visit_pairs(owner_of_piece, owners.of_pieces.size(), [](std::size_t i) { return static_cast<CellId>(i); },
-                    scene_.cell_count(), with_pieces);
+        visit_pairs(
+            owner_of_piece, owners.of_pieces.size(), [](std::size_t i) { return static_cast<CellId>(i); },
+            scene_.cell_count(), with_pieces);
         return with_pieces.any;
     }
 

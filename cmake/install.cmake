@@ -23,6 +23,11 @@ install(FILES visorder.h ${PROJECT_BINARY_DIR}/generated/version.h
 configure_file(visorder.h generated/visorder.h COPYONLY)
 
 get_target_property(visorder_library_type visorder TYPE)
+# VTK's components are what its targets are named after.
+get_target_property(visorder_vtk_components visorder LINK_LIBRARIES)
+list(FILTER visorder_vtk_components INCLUDE REGEX "^VTK::")
+list(TRANSFORM visorder_vtk_components REPLACE "^VTK::" "")
+list(JOIN visorder_vtk_components " " visorder_vtk_components)
 configure_package_config_file(cmake/visorderConfig.cmake.in visorderConfig.cmake
   INSTALL_DESTINATION ${visorder_package_dir})
 write_basic_package_version_file(visorderConfigVersion.cmake COMPATIBILITY SameMinorVersion)

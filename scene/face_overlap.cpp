@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -48,9 +47,15 @@ struct Estimate {
     Sign sign() const { return value > 0 ? Sign::positive : Sign::negative; }
 };
 
+// glm::abs branches.
+glm::dvec3 absolute(const glm::dvec3& v)
+{
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+
 Estimate estimate(const glm::dvec3& normal, const glm::dvec3& permanent, const glm::dvec3& v)
 {
-    const glm::dvec3 size = glm::abs(v);
+    const glm::dvec3 size = absolute(v);
     return {normal.x * v.x + normal.y * v.y + normal.z * v.z,
             1e-15 * (permanent.x * size.x + permanent.y * size.y + permanent.z * size.z) +
                 1e-300 * (1 + size.x + size.y + size.z)};
@@ -137,7 +142,7 @@ bool in_one_half_space(const Viewpoint& from, const SeenFace& f, const SeenFace&
     const glm::dvec3 axis = direction(f) + direction(g);
     for (const SeenFace* face : {&f, &g})
         for (int i = 0; i < face->count; ++i) {
-            const Estimate height = estimate(axis, glm::abs(axis), face->points[at(i)] - from.position);
+            const Estimate height = estimate(axis, absolute(axis), face->points[at(i)] - from.position);
             if (!(height.certain() && height.sign() == Sign::positive))
                 return false;
         }

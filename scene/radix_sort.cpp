@@ -1,9 +1,10 @@
 #include "scene/radix_sort.h"
 
+#include "scene/concurrency.h"
+
 #include <algorithm>
 #include <array>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <vector>
 
 namespace visorder {
@@ -29,8 +30,7 @@ void RadixSort<Key>::sort(std::span<const Key> keys, std::span<const std::uint32
     constexpr int key_bits = 8 * sizeof(Key);
     constexpr std::size_t passes = (key_bits + digit_bits - 1) / digit_bits;
     const std::size_t n = keys.size();
-    const std::size_t chunks = std::clamp<std::size_t>(
-        n / worth_a_thread, 1, static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()));
+    const std::size_t chunks = std::clamp<std::size_t>(n / worth_a_thread, 1, concurrency());
     const auto chunk_begin = [&](std::size_t chunk) { return n * chunk / chunks; };
     const auto each_chunk = [&](auto&& body) {
         oneapi::tbb::parallel_for(std::size_t{0}, chunks, body, oneapi::tbb::simple_partitioner());

@@ -99,7 +99,8 @@ private:
     };
 
     // What remains where `height`, an affine function, is not negative.
-    template <class Height> static Polygon cut(const Polygon& polygon, const Height& height)
+    template <class Height>
+    static Polygon cut(const Polygon& polygon, const Height& height)
     {
         Polygon rest;
         const auto push = [&](const glm::dvec3& x) { rest.points[static_cast<std::size_t>(rest.count++)] = x; };
@@ -115,8 +116,8 @@ private:
         return rest;
     }
 
-    // Side `chart` of the cube shows the rays with |a| <= z and |b| <= z, where z is along one of the axes or against it
-    // and a and b are along the other two; their image is (a / z, b / z).
+    // Side `chart` of the cube shows the rays with |a| <= z and |b| <= z, where z is along one of the axes or against
+    // it and a and b are along the other two; their image is (a / z, b / z).
     std::optional<Box> box_in_side(const SeenFace& face, int chart) const
     {
         const glm::length_t axis = chart / 2;
@@ -178,7 +179,8 @@ struct ExitsAndEntries {
     std::vector<BoundaryFace> entries;
 };
 
-template <class Body> void in_parallel(std::size_t count, std::size_t grain, const Body& body)
+template <class Body>
+void in_parallel(std::size_t count, std::size_t grain, const Body& body)
 {
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -209,8 +211,7 @@ ExitsAndEntries boundary_of_solids(const Scene& scene, const glm::dvec4& eye)
         for (std::size_t i = 0; i < faces.size(); ++i)
             if (sides[i] == side)
                 chosen.push_back({{}, faces[i]});
-        in_parallel(chosen.size(), 1024,
-                    [&](std::size_t i) { chosen[i].seen = seen(scene, chosen[i].owner, eye); });
+        in_parallel(chosen.size(), 1024, [&](std::size_t i) { chosen[i].seen = seen(scene, chosen[i].owner, eye); });
         return chosen;
     };
     return {with_side(Sign::negative), with_side(Sign::positive)};
@@ -263,7 +264,10 @@ bool share_face(const Adjacency& adjacency, CellId a, CellId b)
 }
 
 // Relations as numbers that ascend as they do, which sort faster.
-std::uint64_t packed(CellId front, CellId back) { return std::uint64_t{front} << 32 | back; }
+std::uint64_t packed(CellId front, CellId back)
+{
+    return std::uint64_t{front} << 32 | back;
+}
 Relation unpacked(std::uint64_t relation)
 {
     return {static_cast<CellId>(relation >> 32), static_cast<CellId>(relation)};
@@ -278,7 +282,9 @@ struct Found {
 class Search {
 public:
     Search(const Scene& scene, const glm::dvec4& eye)
-        : scene_(scene), eye_(eye), adjacency_(scene.is_surface() ? nullptr : &scene.adjacency()),
+        : scene_(scene),
+          eye_(eye),
+          adjacency_(scene.is_surface() ? nullptr : &scene.adjacency()),
           faces_(scene.is_surface() ? surface_triangles(scene, eye) : boundary_of_solids(scene, eye))
     {
     }
@@ -295,7 +301,7 @@ public:
             in_parallel(exits.faces.size(), 64, [&](std::size_t i) {
                 Found& found = found_.local();
                 const BoundaryFace& f = faces_.exits[exits.faces[i]];
-                // Whatever is nearer than all of F is not covered by it.
+                // A face that is nearer than all of F is not covered by it.
                 Box behind = exits.boxes[i];
                 behind.max.z = infinity;
                 hierarchy.search([&](const Box& box) { return box.meets(behind); },

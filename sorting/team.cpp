@@ -1,10 +1,11 @@
 #include "sorting/team.h"
 
+#include "scene/concurrency.h"
+
 #include <algorithm>
 #include <bit>
 #include <chrono>
 #include <memory>
-#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 #include <thread>
 #if defined(__SSE2__)
@@ -48,7 +49,7 @@ struct Muster {
 void Team::run(std::size_t most, const std::function<void(Team&, std::size_t)>& work)
 {
     Team team;
-    most = std::min(most, static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()));
+    most = std::min(most, concurrency());
     if (most <= 1) {
         work(team, 0);
         return;

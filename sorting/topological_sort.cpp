@@ -1,5 +1,6 @@
 #include "sorting/topological_sort.h"
 
+#include "scene/concurrency.h"
 #include "sorting/strongly_connected.h"
 #include "sorting/team.h"
 
@@ -11,7 +12,6 @@
 #include <numeric>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 #include <set>
 #include <utility>
 
@@ -20,7 +20,6 @@ namespace visorder {
 namespace {
 
 constexpr CellId worth_a_team = 1 << 15; // cells; fewer are sorted by one thread
-constexpr std::size_t narrow = 192;      // cells in a level that one thread does sooner than two can meet
 constexpr int owner_block_bits = 12;     // runs of 2^12 cells along the curve have one owner
 constexpr std::size_t step = 1 << 14;    // cells between two looks at the room in the lists
 constexpr std::size_t prefetch_rows = 12;
@@ -111,16 +110,9 @@ public:
         return pending;
     }
 
-    // Hand-over of the ready cells, with nothing in any box, between one thread and all.
     std::size_t ready() const { return ready_; }
-    void take(std::span<const CellId> ready_cells)
-    {
-        make_room(front_.now, 0, ready_cells.size());
-        std::copy(ready_cells.begin(), ready_cells.end(), front_.now.begin());
-        ready_ = ready_cells.size();
-    }
-    std::span<const CellId> ready_cells() const { return {front_.now.data(), ready_}; }
 
+private:
     void read_boxes(std::uint32_t level)
     {
         for (std::size_t from = 0; from < fronts_.size(); ++from) {
@@ -138,7 +130,6 @@ public:
         }
     }
 
-private:
     static void make_room(LargeArray<CellId>& list, std::size_t used, std::size_t more)
     {
         if (list.size() < used + more)
@@ -330,8 +321,7 @@ void write_order(std::span<const std::uint32_t> level, std::span<const CellId> c
                  std::vector<std::uint32_t>& cursors, Order& order)
 {
     const std::size_t cells = level.size(), levels = order.layer_begin.size();
-    const std::size_t chunks = std::clamp<std::size_t>(
-        cells / worth_a_team, 1, static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()));
+    const std::size_t chunks = std::clamp<std::size_t>(cells / worth_a_team, 1, concurrency());
     const auto begin_of = [&](std::size_t chunk) { return cells * chunk / chunks; };
     const auto each_chunk = [&](auto&& body) {
         oneapi::tbb::parallel_for(std::size_t{0}, chunks, body, oneapi::tbb::simple_partitioner());
@@ -378,13 +368,12 @@ template <int row, class State>
 void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_cells, std::vector<Front>& fronts,
                std::vector<std::uint32_t>& cursors, Order& order)
 {
-    const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
+    const auto threads = concurrency();
     if (threads == 1 || frame.cells < worth_a_team) {
         fronts.resize(1);
         list_alone(frame, fronts);
     } else {
         std::vector<Published> published;
-        std::atomic<bool> prepared{false};
         Team::run(threads, [&](Team& team, std::size_t me) {
             if (me == 0) {
                 fronts.resize(team.size());

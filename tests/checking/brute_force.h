@@ -19,37 +19,49 @@ using Number = CGAL::Mpzf; // exact for sums and products of doubles
 using Vector3 = std::array<Number, 3>;
 using Vector4 = std::array<Number, 4>;
 
-inline Vector3 exact(const glm::dvec3& v) { return {Number(v.x), Number(v.y), Number(v.z)}; }
+inline Vector3 exact(const glm::dvec3& v)
+{
+    return {Number(v.x), Number(v.y), Number(v.z)};
+}
 
 inline Vector3 cross(const Vector3& a, const Vector3& b)
 {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-inline Number dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Number dot(const Vector3& a, const Vector3& b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-inline Vector3 negated(const Vector3& v) { return {-v[0], -v[1], -v[2]}; }
+inline Vector3 negated(const Vector3& v)
+{
+    return {-v[0], -v[1], -v[2]};
+}
 
-template <class Vector> Vector sum(const Vector& a, const Vector& b)
+template <class Vector>
+Vector sum(const Vector& a, const Vector& b)
 {
     Vector s;
     std::transform(a.begin(), a.end(), b.begin(), s.begin(), [](const auto& x, const auto& y) { return x + y; });
     return s;
 }
 
-template <class Vector> bool all_zero(const Vector& v)
+template <class Vector>
+bool all_zero(const Vector& v)
 {
     return std::all_of(v.begin(), v.end(), [](const auto& x) { return x == 0; });
 }
 
-// What "a obstructs b" means: a ray from the eye passes through the interior of a and later through that of b. The points
-// beyond the inner ones of a, seen from the eye, are the interior of the polyhedron that a's vertices and the rays
-// through them (or the one direction of sight) span, so a obstructs b if and only if that polyhedron and b have inner
-// points in common: if no plane separates them weakly. If any does, one does that holds three of all the vertices and
-// rays.
+// What "a obstructs b" means: a ray from the eye passes through the interior of a and later through that of b. The
+// points beyond the inner ones of a, seen from the eye, are the interior of the polyhedron that a's vertices and the
+// rays through them (or the one direction of sight) span, so a obstructs b if and only if that polyhedron and b have
+// inner points in common: if no plane separates them weakly. If any does, one does that holds three of all the vertices
+// and rays.
 //
 // With T = std::int64_t, for points and eyes with integer coordinates of at most 2^13.
-template <class T> class Obstruction {
+template <class T>
+class Obstruction {
 public:
     Obstruction(const std::vector<std::array<T, 3>>& a, const std::vector<std::array<T, 3>>& b,
                 const std::array<T, 4>& eye)
@@ -115,7 +127,8 @@ private:
     std::vector<Row> back_;
 };
 
-template <class T> std::vector<std::array<T, 3>> vertices(const Scene& scene, CellId cell)
+template <class T>
+std::vector<std::array<T, 3>> vertices(const Scene& scene, CellId cell)
 {
     std::vector<std::array<T, 3>> result;
     for (PointId v : scene.mesh().cell(cell)) {
@@ -128,14 +141,15 @@ template <class T> std::vector<std::array<T, 3>> vertices(const Scene& scene, Ce
 }
 
 /// Whether inner cell a obstructs b; both solid.
-template <class T> bool obstructs(const Scene& scene, CellId a, CellId b, const glm::dvec4& eye)
+template <class T>
+bool obstructs(const Scene& scene, CellId a, CellId b, const glm::dvec4& eye)
 {
     return Obstruction<T>(vertices<T>(scene, a), vertices<T>(scene, b), {T(eye.x), T(eye.y), T(eye.z), T(eye.w)})
         .holds();
 }
 
-/// Whether two convex solids have inner points in common, from the vertices of their intersection: it has an interior if
-/// the mean of these lies strictly behind every face of both.
+/// Whether two convex solids have inner points in common, from the vertices of their intersection: it has an interior
+/// if the mean of these lies strictly behind every face of both.
 inline bool interiors_overlap(const Scene& scene, CellId a, CellId b)
 {
     using Rational = CGAL::Exact_rational;

@@ -49,8 +49,8 @@ const Face triangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
 TEST(FaceOverlap, FacesThatTouchInProjectionShareNoArea)
 {
     for (const glm::dvec4& eye : {from_above, from_a_point_above}) {
-        expect_overlap(Overlap::disjoint, triangle, {{4, 0, 0}, {0, 4, 0}, {4, 4, 0}}, eye); // along an edge
-        expect_overlap(Overlap::disjoint, triangle, {{1, 3, 0}, {2, 2, 0}, {4, 4, 0}}, eye); // along part of one
+        expect_overlap(Overlap::disjoint, triangle, {{4, 0, 0}, {0, 4, 0}, {4, 4, 0}}, eye);  // along an edge
+        expect_overlap(Overlap::disjoint, triangle, {{1, 3, 0}, {2, 2, 0}, {4, 4, 0}}, eye);  // along part of one
         expect_overlap(Overlap::disjoint, triangle, {{4, 0, 0}, {8, 0, 5}, {4, -3, 0}}, eye); // at a vertex
         expect_overlap(Overlap::disjoint, triangle, {{2, 2, 0}, {8, 0, 5}, {8, 8, -2}}, eye); // vertex on an edge
         expect_overlap(Overlap::disjoint, triangle, {{10, 0, 1}, {14, 0, 1}, {10, 4, 1}}, eye);
@@ -62,14 +62,15 @@ TEST(FaceOverlap, FacesThatTouchInProjectionShareNoArea)
 TEST(FaceOverlap, TheFaceAboveIsNearerFromAbove)
 {
     for (const glm::dvec4& eye : {from_above, from_a_point_above}) {
-        expect_overlap(Overlap::nearer, {{1, 1, 1}, {2, 1, 1}, {1, 2, 2}}, triangle, eye); // inside
+        expect_overlap(Overlap::nearer, {{1, 1, 1}, {2, 1, 1}, {1, 2, 2}}, triangle, eye);       // inside
         expect_overlap(Overlap::nearer, {{-9, -9, 1}, {29, -9, 1}, {-9, 29, 2}}, triangle, eye); // around
         expect_overlap(Overlap::nearer, {{1, 1, 1}, {20, 1, 1}, {1, 20, 2}}, triangle, eye);
         expect_overlap(Overlap::nearer, {{0, 0, 0}, {4, 0, 0}, {0, 4, 3}}, triangle, eye); // folded at a common edge
         expect_overlap(Overlap::nearer, {{1, 1, 0}, {5, 1, 0}, {1, 5, 3}, {0.5, 3, 3}}, triangle, eye); // touching
     }
     // Planes that cross, but beside the common rays.
-    expect_overlap(Overlap::nearer, {{-1, -1, 9}, {9, -1, -1}, {-1, 9, 9}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}, from_above);
+    expect_overlap(Overlap::nearer, {{-1, -1, 9}, {9, -1, -1}, {-1, 9, 9}}, {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}},
+                   from_above);
 }
 
 TEST(FaceOverlap, FacesInOnePlaneCoincideWhereTheyShareArea)
@@ -104,14 +105,15 @@ TEST(FaceOverlap, FacesBehindTheEyeAreNotInFrontOfIt)
         p.z -= 100;
     expect_overlap(Overlap::disjoint, above, below, eye);
     // So wide that every plane through an edge of one cuts the other.
-    expect_overlap(Overlap::disjoint, {{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{-9, 8, -1}, {9, 8, -1}, {0, -9, -1}}, eye);
+    expect_overlap(Overlap::disjoint, {{-9, -9, 1}, {9, -9, 1}, {0, 9, 1}}, {{-9, 8, -1}, {9, 8, -1}, {0, -9, -1}},
+                   eye);
 }
 
 TEST(FaceOverlap, ConesThatOnlyAPlaneThroughACornerOfEachSeparates)
 {
-    // The second triangle is the first, turned by half a turn, from above the eye to below it, and a little raised. Then
-    // in directions the first and the opposite of the second are a hexagram: each edge of one cuts off a corner of the
-    // other, so no edge's plane separates the cones.
+    // The second triangle is the first, turned by half a turn, from above the eye to below it, and a little raised.
+    // Then in directions the first and the opposite of the second are a hexagram: each edge of one cuts off a corner of
+    // the other, so no edge's plane separates the cones.
     const glm::dvec4 eye(0, 0, 0, 1);
     const Face f{{0, 20, 1}, {-17, -10, 1}, {17, -10, 1}};
     for (double lift : {0.0, 1.0, 3.0, 6.0}) {
@@ -206,8 +208,8 @@ private:
         std::vector<Vector3> rays;
         std::vector<Number> values;
         const glm::dvec3 direction(eye);
-        const glm::dvec3 across = direction.x != 0 || direction.y != 0 ? glm::dvec3(-direction.y, direction.x, 0)
-                                                                       : glm::dvec3(1, 0, 0);
+        const glm::dvec3 across =
+            direction.x != 0 || direction.y != 0 ? glm::dvec3(-direction.y, direction.x, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 along(direction.y * across.z - direction.z * across.y,
                                direction.z * across.x - direction.x * across.z,
                                direction.x * across.y - direction.y * across.x);
@@ -259,8 +261,9 @@ TEST(FaceOverlap, AgreesWithTheDefinitionOnRandomFaces)
         const int size = random.from_to(1, 6);
         const bool around = random.below(2) == 0; // the eye among the faces
         const int low = around ? -size : 1;
-        const glm::dvec4 eye = random.below(3) != 0 ? glm::dvec4(around ? glm::dvec3(0) : random.integer_point(-size, 0), 1)
-                                                    : glm::dvec4(random.integer_point(-2, 2), 0);
+        const glm::dvec4 eye = random.below(3) != 0
+                                   ? glm::dvec4(around ? glm::dvec3(0) : random.integer_point(-size, 0), 1)
+                                   : glm::dvec4(random.integer_point(-2, 2), 0);
         if (eye == glm::dvec4(0))
             continue;
         const Face f = random_face(random, low, size), g = random_face(random, low, size);
@@ -285,8 +288,8 @@ TEST(FaceOverlap, TheCommonPointLiesWithinBothShadows)
     int checked = 0;
     for (int i = 0; i < 4000; ++i) {
         const Face f = random_face(random, 0, 6), g = random_face(random, 0, 6);
-        const glm::dvec4 eye = i % 2 == 0 ? glm::dvec4(random.integer_point(-9, 9), 1)
-                                          : glm::dvec4(random.integer_point(1, 3), 0);
+        const glm::dvec4 eye =
+            i % 2 == 0 ? glm::dvec4(random.integer_point(-9, 9), 1) : glm::dvec4(random.integer_point(1, 3), 0);
         const SeenFace seen_f = seen_face(f, eye), seen_g = seen_face(g, eye);
         if (face_overlap(seen_f, seen_g, eye) == Overlap::disjoint)
             continue;

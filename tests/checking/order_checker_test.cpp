@@ -18,9 +18,13 @@ namespace {
 
 using Matrix = std::vector<std::vector<bool>>; // [front][back], inner numbering
 
-Matrix matrix(const Scene& scene) { return Matrix(scene.cell_count(), std::vector<bool>(scene.cell_count(), false)); }
+Matrix matrix(const Scene& scene)
+{
+    return Matrix(scene.cell_count(), std::vector<bool>(scene.cell_count(), false));
+}
 
-template <class T> Matrix obstructions(const Scene& scene, const glm::dvec4& eye)
+template <class T>
+Matrix obstructions(const Scene& scene, const glm::dvec4& eye)
 {
     Matrix result = matrix(scene);
     const auto solid = [&](CellId cell) { return scene.orientations().sign[cell] != 0; };
@@ -135,8 +139,7 @@ void expect_witness(const Scene& scene, const glm::dvec4& eye, const Violation& 
         return static_cast<CellId>(std::find(cells.begin(), cells.end(), caller) - cells.begin());
     };
     const CellId front = inner(violation.front), back = inner(violation.back);
-    const glm::dvec3 away =
-        eye.w == 0 ? -glm::dvec3(eye) : violation.witness - glm::dvec3(eye) / eye.w;
+    const glm::dvec3 away = eye.w == 0 ? -glm::dvec3(eye) : violation.witness - glm::dvec3(eye) / eye.w;
     // The range of the ray witness + t away within a cell.
     const auto range = [&](CellId cell) {
         std::pair<double, double> t{-1e300, 1e300};
@@ -146,8 +149,9 @@ void expect_witness(const Scene& scene, const glm::dvec4& eye, const Violation& 
             if (!triple)
                 continue;
             const auto& points = scene.mesh().points;
-            const glm::dvec3 n = static_cast<double>(scene.orientations().sign[cell]) *
-                                 glm::cross(points[triple->b] - points[triple->a], points[triple->c] - points[triple->a]);
+            const glm::dvec3 n =
+                static_cast<double>(scene.orientations().sign[cell]) *
+                glm::cross(points[triple->b] - points[triple->a], points[triple->c] - points[triple->a]);
             const double height = glm::dot(n, violation.witness - points[triple->a]), slope = glm::dot(n, away);
             if (slope > 0)
                 t.second = std::min(t.second, -height / slope);
@@ -194,8 +198,7 @@ void expect_truth(const std::string& name, const Mesh& mesh, const std::vector<g
                 ASSERT_TRUE(truth[a][b] || !known[a][b] || !solids) << a << " does not obstruct " << b;
             }
         for (int i = 0; i < 4; ++i) {
-            const Order order =
-                i == 0 ? topological_order(scene, known, random) : random_order(scene, random);
+            const Order order = i == 0 ? topological_order(scene, known, random) : random_order(scene, random);
             const CheckResult result = checker.check(relations, order, {1000000});
             const Expected expected = expected_of(scene, known, reaches, order);
             EXPECT_EQ(result.relations, relations.count());
@@ -270,7 +273,7 @@ TEST(OrderChecker, RelationsRunThroughFlatCells)
         mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 2, 3, 4});
         mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 1, 3, 5});
         mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{1, 2, 3, 5});
-        const std::vector<glm::dvec4> eyes{{1, 2, 20, 1}, {1, 2, -20, 1}, {1, 2, 3, 0},  {-7, 9, 3, 1},
+        const std::vector<glm::dvec4> eyes{{1, 2, 20, 1}, {1, 2, -20, 1}, {1, 2, 3, 0}, {-7, 9, 3, 1},
                                            {9, 1, 0, 1},  {2, 1, 1, 1},   {0, 0, 1, 0}, {1, 2, -3, 0}};
         expect_truth<std::int64_t>("flat cell", mesh, eyes, false);
         const Scene scene(mesh);
@@ -309,7 +312,8 @@ TEST(OrderChecker, ReportsSetsThatNoOrderSatisfies)
     // And two cells apart from the ring, one behind the other.
     const auto first = static_cast<PointId>(mesh.points.size());
     for (const double z : {0.0, 9.0})
-        for (const glm::dvec3& p : {glm::dvec3(20, 0, z), glm::dvec3(25, 0, z), glm::dvec3(20, 5, z), glm::dvec3(21, 1, z + 3)})
+        for (const glm::dvec3& p :
+             {glm::dvec3(20, 0, z), glm::dvec3(25, 0, z), glm::dvec3(20, 5, z), glm::dvec3(21, 1, z + 3)})
             mesh.points.push_back(p);
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{first, first + 1, first + 2, first + 3});
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{first + 4, first + 5, first + 6, first + 7});
@@ -349,9 +353,8 @@ TEST(OrderChecker, CellsThatOverlapAreReportedApart)
     for (const glm::dvec4& eye : small_scene_eyes(scene, 1)) {
         const CheckResult result = checker.check(eye, random_order(scene, random));
         EXPECT_EQ(result.overlapping, overlapping);
-        checker.relations_at(eye).visit([&](CellId front, CellId back) {
-            EXPECT_FALSE(interiors_overlap(scene, front, back));
-        });
+        checker.relations_at(eye).visit(
+            [&](CellId front, CellId back) { EXPECT_FALSE(interiors_overlap(scene, front, back)); });
     }
 }
 

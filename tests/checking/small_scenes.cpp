@@ -36,8 +36,8 @@ Sign side(const Mesh& mesh, const std::array<PointId, 4>& v)
 std::array<glm::dvec3, 8> parallelepiped(const glm::dvec3& origin, const glm::dvec3& x, const glm::dvec3& y,
                                          const glm::dvec3& z)
 {
-    return {origin,         origin + x,         origin + x + y,         origin + y,
-            origin + z,     origin + x + z,     origin + x + y + z,     origin + y + z};
+    return {origin,     origin + x,     origin + x + y,     origin + y,
+            origin + z, origin + x + z, origin + x + y + z, origin + y + z};
 }
 
 // Of the kinds: whole, whole, wedges, pyramids.
@@ -150,10 +150,20 @@ void add_random_cell(Mesh& mesh, Random& random, int low, int high)
         std::vector<glm::dvec3> corners;
         CellShape shape = CellShape::tetrahedron;
         switch (random.below(5)) {
-        case 0: shape = CellShape::hexahedron; corners.assign(box.begin(), box.end()); break;
-        case 1: shape = CellShape::wedge; corners = {box[0], box[3], box[1], box[4], box[7], box[5]}; break;
-        case 2: shape = CellShape::pyramid; corners = {box[0], box[1], box[2], box[3], box[4]}; break;
-        default: corners = {box[0], box[1], box[3], box[4]};
+        case 0:
+            shape = CellShape::hexahedron;
+            corners.assign(box.begin(), box.end());
+            break;
+        case 1:
+            shape = CellShape::wedge;
+            corners = {box[0], box[3], box[1], box[4], box[7], box[5]};
+            break;
+        case 2:
+            shape = CellShape::pyramid;
+            corners = {box[0], box[1], box[2], box[3], box[4]};
+            break;
+        default:
+            corners = {box[0], box[1], box[3], box[4]};
         }
         if (!std::all_of(corners.begin(), corners.end(), inside))
             continue;

@@ -40,15 +40,16 @@ struct SmallScene {
 };
 
 /// Scenes of few cells with integer coordinates in [0, 64]: Delaunay meshes with cells carved away, boxes that touch in
-/// parts of their faces, with and without boxes missing, and single cells of all shapes that meet anyhow but never overlap.
+/// parts of their faces, with and without boxes missing, and single cells of all shapes that meet anyhow but never
+/// overlap.
 std::vector<SmallScene> small_scenes();
 
 /// The Delaunay tetrahedralisation of random points with integer coordinates in [0, size], of which no five lie on a
 /// sphere; of the cells, about `keep` remain.
 Mesh carved_delaunay(int points, int size, double keep, std::uint64_t seed);
 
-/// Unit boxes times `spacing` in a grid, each missing with some probability, each whole, or two wedges, or (if `spacing`
-/// is even) six pyramids; faces of different kinds of boxes need not match where they meet.
+/// Unit boxes times `spacing` in a grid, each missing with some probability, each whole, or two wedges, or (if
+/// `spacing` is even) six pyramids; faces of different kinds of boxes need not match where they meet.
 Mesh box_grid(glm::ivec3 boxes, int spacing, double missing, std::uint64_t seed);
 
 /// The same of whole boxes, so that all faces between them match.
