@@ -16,10 +16,11 @@
 // Where two cells overlap, either one of them is found at the boundary or the mesh is folded. Take a point in both, and
 // follow a line from it in general position, keeping track of which of the cells it is in: across an interior face that
 // is not folded, each of the two goes on into exactly one cell, and two different cells into two different ones. The
-// scene being finite, one of the two comes to a boundary face, of cell c, inside the other, d; c and d overlap there.
-// Now walk over the piece of the boundary that this face belongs to, just inside. Either the other cell goes on into a
-// neighbour all the way, and then the owner of every face of the piece overlaps some cell; or it ends at a boundary
-// face too, and there two owners of boundary faces overlap. So a scene without overlaps is one with
+// scene being finite, one of the two comes to a boundary face, of cell c, while in the other, d; c and d overlap there.
+// If d ends there too, two owners of boundary faces overlap. Else walk over the piece of the boundary that c's face
+// belongs to, just inside. Either the other cell goes on into a neighbour all the way, and then the owner of every face
+// of the piece overlaps some cell; or it ends at a boundary face on the way, and there two owners overlap. So a scene
+// without overlaps is one with
 //   no folded interior face,
 //   no two overlapping owners of boundary faces, and
 //   of each piece of the boundary one face whose owner overlaps no cell.
