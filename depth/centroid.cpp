@@ -18,7 +18,7 @@ void Centroid::sort(const View& view, Order& order)
     validate(view);
     const LargeArray<glm::vec3>& centroids = scene_.centroids();
     keys_.resize(scene_.cell_count());
-    order.back_to_front.resize(scene_.cell_count());
+    resize_on_large_pages(order.back_to_front, scene_.cell_count());
     order.layer_begin.clear();
     order.cycles.clear();
     const auto fill_keys = [&](auto&& distance) {

@@ -18,7 +18,7 @@ void Power::sort(const View& view, Order& order)
     validate(view);
     const Circumspheres& spheres = scene_.circumspheres();
     keys_.resize(scene_.cell_count());
-    order.back_to_front.resize(scene_.cell_count());
+    resize_on_large_pages(order.back_to_front, scene_.cell_count());
     order.layer_begin.clear();
     order.cycles.clear();
     // |w| times the power, less the square of the eye's distance from the origin, which all cells have in common: what

@@ -1,5 +1,6 @@
 #include "scene/large_array.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <sys/mman.h>
 
@@ -23,6 +24,15 @@ void* allocate_large(std::size_t bytes)
     // Advice only: where the kernel declines, the memory is good all the same.
     (void)madvise(memory, whole_pages, MADV_HUGEPAGE);
     return memory;
+}
+
+void advise_huge_pages(void* memory, std::size_t bytes) noexcept
+{
+    const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t first = (begin + huge_page - 1) / huge_page * huge_page;
+    const std::uintptr_t last = (begin + bytes) / huge_page * huge_page;
+    if (first < last)
+        (void)madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 }
 
 void free_large(void* memory, std::size_t bytes) noexcept

@@ -12,6 +12,22 @@ namespace visorder {
 void* allocate_large(std::size_t bytes);
 void free_large(void* memory, std::size_t bytes) noexcept;
 
+/// Advises huge pages for memory that is about to be used for the first time; does nothing for small blocks.
+void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
+
+/// Resizes a plain vector whose contents may be lost, with the same advice where it has to grow for that.
+template <class T>
+void resize_on_large_pages(std::vector<T>& vector, std::size_t size)
+{
+    if (size > vector.capacity()) {
+        vector.clear();
+        vector.shrink_to_fit();
+        vector.reserve(size);
+        advise_huge_pages(vector.data(), size * sizeof(T));
+    }
+    vector.resize(size);
+}
+
 /// Standard allocator over allocate_large that leaves new elements of trivial types uninitialised: arrays are filled by
 /// parallel loops, and pages are first touched there.
 template <class T>

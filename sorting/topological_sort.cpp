@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <oneapi/tbb/blocked_range.h>
@@ -21,8 +22,9 @@ namespace {
 constexpr CellId worth_a_team = 1 << 15; // cells; fewer are sorted by one thread
 constexpr int owner_block_bits = 12;     // runs of 2^12 cells along the curve have one owner
 constexpr std::size_t step = 1 << 14;    // cells between two looks at the room in the lists
-constexpr std::size_t prefetch_rows = 12;
-constexpr std::size_t prefetch_states = 6;
+constexpr std::size_t most_members = 16; // in a team
+constexpr std::size_t prefetch_rows = 32;
+constexpr std::size_t prefetch_states = 12;
 
 using Front = TopologicalSort::Front;
 
@@ -72,6 +74,10 @@ public:
             const CellId end = std::min<CellId>(frame_.cells, begin + (1u << owner_block_bits));
             make_room(front_.now, ready_, end - begin);
             for (CellId cell = begin; cell < end; ++cell) {
+                if (cell + 8 <= end && none_of_eight_ready(frame_.state + cell)) {
+                    cell += 7;
+                    continue;
+                }
                 front_.now[ready_] = cell;
                 ready_ += Frame<row, State>::ready(frame_.state[cell]);
             }
@@ -129,6 +135,18 @@ private:
         }
     }
 
+    // Almost no cell is ready at first: states of one byte are passed over eight at a time.
+    static bool none_of_eight_ready(const State* states)
+    {
+        if constexpr (sizeof(State) > 1)
+            return false;
+        std::uint64_t eight;
+        std::memcpy(&eight, states, sizeof eight);
+        // The counts, four bits each: none is zero if adding 15 to every one carries out of all of them.
+        const std::uint64_t counts = eight >> row & 0x0f0f0f0f0f0f0f0fu;
+        return ((counts + 0x0f0f0f0f0f0f0f0fu) & 0x1010101010101010u) == 0x1010101010101010u;
+    }
+
     static void make_room(LargeArray<CellId>& list, std::size_t used, std::size_t more)
     {
         if (list.size() < used + more)
@@ -137,56 +155,76 @@ private:
 
     std::size_t owner(CellId cell) const { return (cell >> owner_block_bits) & owners_; }
 
-    // One relation less between what was just listed (`cell`) and what stands before it (`front`), if `holds`. Without
-    // branches on the relation: which way a face looks is as good as random.
-    void satisfy(CellId cell, CellId front, State holds, std::uint32_t level)
-    {
-        if constexpr (shared) {
-            const std::size_t to = owner(front);
-            const auto mine = static_cast<State>(to == me_);
-            const CellId at = mine ? front : cell;
-            const auto s = static_cast<State>(frame_.state[at] - ((holds & mine) << row));
-            frame_.state[at] = s;
-            front_.next[next_] = front;
-            next_ += holds & mine & static_cast<State>(Frame<row, State>::ready(s));
-            front_.out[level & 1][to][sent_[to]] = front;
-            sent_[to] += holds & (mine ^ 1u);
-        } else {
-            const auto s = static_cast<State>(frame_.state[front] - (holds << row));
-            frame_.state[front] = s;
-            front_.next[next_] = front;
-            next_ += holds & static_cast<State>(Frame<row, State>::ready(s));
-        }
-    }
-
+    // Lists now[begin, end) of this level. Everything the loop touches is held in local variables: a state may be a
+    // byte, and the compiler takes a store of a byte to change anything that is not local.
     template <bool more>
     void list(std::size_t begin, std::size_t end, std::uint32_t level)
     {
-        const CellId* now = front_.now.data();
+        const CellId* const now = front_.now.data();
+        const CellId* const neighbour = frame_.neighbour;
+        State* const state = frame_.state;
+        std::uint32_t* const level_of = frame_.level;
+        const std::size_t me = me_, owners = owners_;
+        CellId* next = front_.next.data();
+        std::size_t next_count = next_;
+        std::array<CellId*, most_members> box;
+        std::array<std::size_t, most_members> sent;
+        const auto hold_boxes = [&] {
+            for (std::size_t to = 0; shared && to < fronts_.size(); ++to)
+                box[to] = front_.out[level & 1][to].data();
+        };
+        hold_boxes();
+        if constexpr (shared)
+            std::copy_n(sent_.begin(), fronts_.size(), sent.begin());
+
+        // One relation less between what is being listed (`cell`) and what comes after it (`front`), if `holds`.
+        // Without branches on the relation: which way a face looks is as good as random.
+        const auto satisfy = [&](CellId cell, CellId front, State holds) {
+            if constexpr (shared) {
+                const std::size_t to = (front >> owner_block_bits) & owners;
+                const auto mine = static_cast<State>(to == me);
+                const CellId at = cell ^ ((cell ^ front) & (0u - static_cast<CellId>(mine)));
+                const auto s = static_cast<State>(state[at] - ((holds & mine) << row));
+                state[at] = s;
+                next[next_count] = front;
+                next_count += holds & mine & static_cast<State>(Frame<row, State>::ready(s));
+                box[to][sent[to]] = front;
+                sent[to] += holds & (mine ^ 1u);
+            } else {
+                const auto s = static_cast<State>(state[front] - (holds << row));
+                state[front] = s;
+                next[next_count] = front;
+                next_count += holds & static_cast<State>(Frame<row, State>::ready(s));
+            }
+        };
         for (std::size_t i = begin; i < end; ++i) {
             if (i + prefetch_rows < end) {
                 const CellId ahead = now[i + prefetch_rows];
-                __builtin_prefetch(frame_.neighbour + std::size_t{ahead} * row);
-                __builtin_prefetch(frame_.level + ahead, 1);
-                const CellId* soon = frame_.neighbour + std::size_t{now[i + prefetch_states]} * row;
+                __builtin_prefetch(neighbour + std::size_t{ahead} * row);
+                __builtin_prefetch(level_of + ahead, 1);
+                const CellId* soon = neighbour + std::size_t{now[i + prefetch_states]} * row;
                 for (int f = 0; f < row; ++f)
-                    __builtin_prefetch(frame_.state + soon[f], 1);
+                    __builtin_prefetch(state + soon[f], 1);
             }
             const CellId cell = now[i];
-            const State entry = frame_.state[cell];
-            frame_.level[cell] = level;
-            const CellId* across = frame_.neighbour + std::size_t{cell} * row;
+            const State entry = state[cell];
+            level_of[cell] = level;
+            const CellId* across = neighbour + std::size_t{cell} * row;
             for (int f = 0; f < row; ++f)
-                satisfy(cell, across[f], static_cast<State>(entry >> f & 1u), level);
+                satisfy(cell, across[f], static_cast<State>(entry >> f & 1u));
             if constexpr (more)
                 for (std::uint32_t k = frame_.more_begin[cell]; k < frame_.more_begin[cell + 1]; ++k) {
-                    make_room(front_.next, next_, std::size_t{row} * step + 2);
-                    if constexpr (shared)
-                        for (std::size_t to = 0; to < fronts_.size(); ++to)
-                            make_room(front_.out[level & 1][to], sent_[to], std::size_t{row} * step + 2);
-                    satisfy(cell, frame_.more_front[k], State{1}, level);
+                    make_room(front_.next, next_count, std::size_t{row} * step + 2);
+                    next = front_.next.data();
+                    for (std::size_t to = 0; shared && to < fronts_.size(); ++to)
+                        make_room(front_.out[level & 1][to], sent[to], std::size_t{row} * step + 2);
+                    hold_boxes();
+                    satisfy(cell, frame_.more_front[k], State{1});
                 }
         }
+        next_ = next_count;
+        if constexpr (shared)
+            std::copy_n(sent.begin(), fronts_.size(), sent_.begin());
     }
 
     const Frame<row, State>& frame_;
@@ -381,7 +419,7 @@ void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_ce
         list_alone(frame, fronts);
     } else {
         std::vector<Published> published;
-        Team::run(threads, [&](Team& team, std::size_t me) {
+        Team::run(std::min(threads, most_members), [&](Team& team, std::size_t me) {
             if (me == 0) {
                 fronts.resize(team.size());
                 published = std::vector<Published>(team.size());
@@ -410,7 +448,7 @@ void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_ce
         list_cycles(frame, caller_cells, level_counts, order.cycles);
     order.layer_begin.resize(level_counts.size());
     std::exclusive_scan(level_counts.begin(), level_counts.end(), order.layer_begin.begin(), 0u);
-    order.back_to_front.resize(frame.cells);
+    resize_on_large_pages(order.back_to_front, frame.cells);
     write_order({frame.level, frame.cells}, caller_cells, cursors, order);
 }
 
