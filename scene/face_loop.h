@@ -23,13 +23,7 @@ inline FaceLoop face_loop(const Mesh& mesh, CellId cell, int face)
 {
     FaceLoop loop;
     const auto cell_vertices = mesh.cell(cell);
-    const auto corners = face_vertices(mesh.shapes[cell], face);
-    if (corners.size() == 3) {
-        const PointId a = cell_vertices[corners[0]], b = cell_vertices[corners[1]], c = cell_vertices[corners[2]];
-        if (a != b && b != c && c != a) [[likely]]
-            return {{a, b, c, 0}, 3};
-    }
-    for (std::uint8_t local : corners) {
+    for (std::uint8_t local : face_vertices(mesh.shapes[cell], face)) {
         const PointId v = cell_vertices[local];
         if (std::find(loop.begin(), loop.end(), v) == loop.end())
             loop.vertices[static_cast<std::size_t>(loop.count++)] = v;

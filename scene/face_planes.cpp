@@ -70,11 +70,8 @@ Plane plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
 Plane face_plane(const Mesh& mesh, const FaceLoop& loop, int orientation, const FacePlanes& planes)
 {
     std::array<int, max_face_vertices> order{0, 1, 2, 3};
-    for (int end = loop.count; end > 1; --end)
-        for (std::size_t i = 1; i < static_cast<std::size_t>(end); ++i)
-            if (loop.vertices[static_cast<std::size_t>(order[i])] <
-                loop.vertices[static_cast<std::size_t>(order[i - 1])])
-                std::swap(order[i], order[i - 1]);
+    std::sort(order.begin(), order.begin() + loop.count,
+              [&](int i, int j) { return loop.begin()[i] < loop.begin()[j]; });
     const auto through = [&](int i, int j, int k) {
         const Plane plane = plane_through(mesh.points[loop.begin()[i]], mesh.points[loop.begin()[j]],
                                           mesh.points[loop.begin()[k]], planes);
@@ -97,9 +94,10 @@ void require_planar(const Scene& scene, CellId cell, int face, const FaceLoop& l
                                      scene.caller_cells()[cell], face, name(scene.mesh().shapes[cell])));
 }
 
-void fill_block(const Scene& scene, const Orientations& orientations, CellId cell, FacePlanes& planes)
+void fill_block(const Scene& scene, CellId cell, FacePlanes& planes)
 {
     const Mesh& mesh = scene.mesh();
+    const Orientations& orientations = scene.orientations();
     const auto row = static_cast<std::size_t>(planes.row_length);
     float* block = planes.plane.data() + cell * 4 * row;
     std::fill_n(block, 4 * row, 0.0f);
@@ -231,7 +229,7 @@ FacePlanes derive_face_planes(const Scene& scene)
     const Orientations& orientations = scene.orientations();
     oneapi::tbb::parallel_for(Range(0, scene.cell_count(), 4096), [&](const Range& range) {
         for (CellId cell = range.begin(); cell < range.end(); ++cell)
-            fill_block(scene, orientations, cell, planes);
+            fill_block(scene, cell, planes);
     });
     for (const auto& [cell, face] : orientations.folded) {
         float* block = planes.plane.data() + std::size_t{cell} * 4 * static_cast<std::size_t>(planes.row_length);

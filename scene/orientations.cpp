@@ -61,6 +61,16 @@ struct Folds {
     std::vector<CellId> turned_flat;
 };
 
+// A face of a tetrahedron with four distinct vertices needs no search for repeated ones.
+FaceLoop loop_of(const Mesh& mesh, CellId cell, int face)
+{
+    if (mesh.shapes[cell] != CellShape::tetrahedron)
+        return face_loop(mesh, cell, face);
+    const auto v = mesh.cell(cell);
+    const auto corners = face_vertices(CellShape::tetrahedron, face);
+    return {{v[corners[0]], v[corners[1]], v[corners[2]], 0}, 3};
+}
+
 bool same_vertices(const FaceLoop& a, const FaceLoop& b)
 {
     return a.count == b.count &&
@@ -77,13 +87,13 @@ void inspect_faces(const Scene& scene, const Orientations& orientations, CellId 
         // Of two solids the one with the lower number looks at their face for both.
         if (neighbour == cell || orientations.sign[neighbour] == 0 || (sign != 0 && neighbour < cell))
             continue;
-        const FaceLoop here = face_loop(scene.mesh(), cell, face);
+        const FaceLoop here = loop_of(scene.mesh(), cell, face);
         const auto row_there = scene.adjacency().row(neighbour);
         int face_there = 0;
         while (row_there[static_cast<std::size_t>(face_there)] != cell ||
-               !same_vertices(here, face_loop(scene.mesh(), neighbour, face_there)))
+               !same_vertices(here, loop_of(scene.mesh(), neighbour, face_there)))
             ++face_there;
-        const FaceLoop there = face_loop(scene.mesh(), neighbour, face_there);
+        const FaceLoop there = loop_of(scene.mesh(), neighbour, face_there);
         // Two solids on opposite sides of the face run round it in opposite ways, once both are taken from outside.
         const bool turned_alike = same_way(here, there) == ((sign == 0 ? 1 : sign) == orientations.sign[neighbour]);
         if (sign == 0) {
