@@ -136,6 +136,9 @@ UnitEye unit_eye(const FacePlanes& planes, const glm::dvec4& eye)
     e *= planes.scale;
     double w = eye.w;
     const double largest = std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z), std::abs(w)});
+    // A direction so short that scaling rounds it to nothing is left to the exact predicate.
+    if (largest == 0)
+        return {0, 0, 0, 0, error_bound(e, w)};
     const double scale = std::ldexp(w < 0 ? -1.0 : 1.0, -std::ilogb(largest));
     e *= scale;
     w *= scale;

@@ -217,8 +217,9 @@ std::vector<glm::dvec4> small_scene_eyes(const Scene& scene, std::uint64_t seed)
 {
     Random random(seed);
     const Box& box = scene.bounds();
-    const int low = static_cast<int>(std::min({box.min.x, box.min.y, box.min.z}));
-    const int high = static_cast<int>(std::max({box.max.x, box.max.y, box.max.z}));
+    // Scenes may be far larger than integers go; these eyes then lie in their middle.
+    const int low = static_cast<int>(std::max(-1e6, std::min({box.min.x, box.min.y, box.min.z})));
+    const int high = static_cast<int>(std::min(1e6, std::max({box.max.x, box.max.y, box.max.z})));
     std::vector<glm::dvec4> eyes;
     for (int i = 0; i < 3; ++i) {
         eyes.emplace_back(random.integer_point(low - 100, high + 100), 1);
