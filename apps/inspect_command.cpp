@@ -58,6 +58,11 @@ int run(const SceneSource& source)
     fmt::print("  folded faces    {}\n", traits.folded_faces);
     const AutoChoice choice = choose_sorter(scene);
     fmt::print("  auto            {}: {}\n", choice.name, choice.reason);
+    if (!scene.is_surface())
+        scene.face_planes();
+    for (const StructureRecord& record : scene.derived())
+        fmt::print("  {:<15} {:.3f} s, {:.1f} MiB\n", name(record.structure), record.seconds,
+                   static_cast<double>(record.bytes) / (1 << 20));
     return exit_success;
 }
 
@@ -66,7 +71,7 @@ int run(const SceneSource& source)
 void add_inspect_command(CLI::App& app, Command& chosen)
 {
     CLI::App* command =
-        app.add_subcommand("inspect", "Counts, traits and boundary of a mesh, and which sorter suits it");
+        app.add_subcommand("inspect", "Counts, traits and boundary of a mesh, which sorter suits it, and what its structures cost");
     const std::shared_ptr<SceneSource> source = add_scene_source(*command);
     command->callback([source, &chosen] { chosen = [source] { return run(*source); }; });
 }

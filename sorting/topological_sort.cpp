@@ -20,7 +20,7 @@ namespace visorder {
 namespace {
 
 constexpr CellId worth_a_team = 1 << 15; // cells; fewer are sorted by one thread
-constexpr int owner_block_bits = 12;     // runs of 2^12 cells along the curve have one owner
+constexpr int owner_block_bits = 15;     // runs of 2^15 cells along the curve have one owner
 constexpr std::size_t step = 1 << 14;    // cells between two looks at the room in the lists
 constexpr std::size_t most_members = 16; // in a team
 constexpr std::size_t prefetch_rows = 32;
@@ -177,25 +177,22 @@ private:
         if constexpr (shared)
             std::copy_n(sent_.begin(), fronts_.size(), sent.begin());
 
-        // One relation less between what is being listed (`cell`) and what comes after it (`front`), if `holds`.
+        // One relation less between the cell being listed and what comes after it (`front`), if `holds`.
         // Without branches on the relation: which way a face looks is as good as random.
-        const auto satisfy = [&](CellId cell, CellId front, State holds) {
+        const auto satisfy = [&](CellId front, State holds) {
             if constexpr (shared) {
+                // Blocks are so large that this branch is nearly always right.
                 const std::size_t to = (front >> owner_block_bits) & owners;
-                const auto mine = static_cast<State>(to == me);
-                const CellId at = cell ^ ((cell ^ front) & (0u - static_cast<CellId>(mine)));
-                const auto s = static_cast<State>(state[at] - ((holds & mine) << row));
-                state[at] = s;
-                next[next_count] = front;
-                next_count += holds & mine & static_cast<State>(Frame<row, State>::ready(s));
-                box[to][sent[to]] = front;
-                sent[to] += holds & (mine ^ 1u);
-            } else {
-                const auto s = static_cast<State>(state[front] - (holds << row));
-                state[front] = s;
-                next[next_count] = front;
-                next_count += holds & static_cast<State>(Frame<row, State>::ready(s));
+                if (to != me) {
+                    box[to][sent[to]] = front;
+                    sent[to] += holds;
+                    return;
+                }
             }
+            const auto s = static_cast<State>(state[front] - (holds << row));
+            state[front] = s;
+            next[next_count] = front;
+            next_count += holds & static_cast<State>(Frame<row, State>::ready(s));
         };
         for (std::size_t i = begin; i < end; ++i) {
             if (i + prefetch_rows < end) {
@@ -203,15 +200,17 @@ private:
                 __builtin_prefetch(neighbour + std::size_t{ahead} * row);
                 __builtin_prefetch(level_of + ahead, 1);
                 const CellId* soon = neighbour + std::size_t{now[i + prefetch_states]} * row;
+                // Another's states stay where they are: to read a line is to take it from its owner.
                 for (int f = 0; f < row; ++f)
-                    __builtin_prefetch(state + soon[f], 1);
+                    __builtin_prefetch(
+                        state + (shared && ((soon[f] >> owner_block_bits) & owners) != me ? ahead : soon[f]), 1);
             }
             const CellId cell = now[i];
             const State entry = state[cell];
             level_of[cell] = level;
             const CellId* across = neighbour + std::size_t{cell} * row;
             for (int f = 0; f < row; ++f)
-                satisfy(cell, across[f], static_cast<State>(entry >> f & 1u));
+                satisfy(across[f], static_cast<State>(entry >> f & 1u));
             if constexpr (more)
                 for (std::uint32_t k = frame_.more_begin[cell]; k < frame_.more_begin[cell + 1]; ++k) {
                     make_room(front_.next, next_count, std::size_t{row} * step + 2);
@@ -219,7 +218,7 @@ private:
                     for (std::size_t to = 0; shared && to < fronts_.size(); ++to)
                         make_room(front_.out[level & 1][to], sent[to], std::size_t{row} * step + 2);
                     hold_boxes();
-                    satisfy(cell, frame_.more_front[k], State{1});
+                    satisfy(frame_.more_front[k], State{1});
                 }
         }
         next_ = next_count;
