@@ -70,8 +70,8 @@ int run(const SceneSource& source)
 
 void add_inspect_command(CLI::App& app, Command& chosen)
 {
-    CLI::App* command =
-        app.add_subcommand("inspect", "Counts, traits and boundary of a mesh, which sorter suits it, and what its structures cost");
+    CLI::App* command = app.add_subcommand(
+        "inspect", "Counts, traits and boundary of a mesh, which sorter suits it, and what its structures cost");
     const std::shared_ptr<SceneSource> source = add_scene_source(*command);
     command->callback([source, &chosen] { chosen = [source] { return run(*source); }; });
 }
