@@ -1,6 +1,7 @@
 #include "apps/commands.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
+#include "apps/sorter_options.h"
 #include "bench/comparison.h"
 #include "bench/report.h"
 #include "scene/error.h"
@@ -21,6 +22,7 @@ struct Arguments {
     std::string size = "512x512";
     std::string json_file;
     bool whole = false;
+    bool statistics = false;
 };
 
 // A convex, a carved, a tie-ridden and a curvilinear scene, and a true cycle.
@@ -59,7 +61,8 @@ int run(Arguments& arguments)
         write_file(arguments.json_file, json(comparison, machine));
     const int views = comparison.runs.empty() ? 0 : comparison.runs.back().view + 1;
     fmt::print("{}, {} thread{}; {} views a scene: times are medians over them, counts are sums\n\n{}", machine.cpu,
-               machine.threads, machine.threads == 1 ? "" : "s", views, table(comparison, isatty(STDOUT_FILENO) != 0));
+               machine.threads, machine.threads == 1 ? "" : "s", views,
+               table(comparison, isatty(STDOUT_FILENO) != 0, arguments.statistics));
     return comparison.failed() ? exit_wrong : exit_success;
 }
 
@@ -86,6 +89,8 @@ void add_compare_command(CLI::App& app, Command& chosen)
     command->add_option("--scalar", options.scalar, "The array to take of each mesh (default: the format's)");
     command->add_flag("--weld", options.weld, "Join points of meshes with exactly equal coordinates");
     command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
+    command->add_flag("--statistics", arguments->statistics, "Also what each sorter counts of its own work");
+    add_sorter_options(*command, options.sorter_options);
     command->add_option("--json", arguments->json_file, "Write every run to a file");
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

@@ -1,6 +1,7 @@
 #include "apps/commands.h"
 #include "apps/order_file.h"
 #include "apps/scene_source.h"
+#include "apps/sorter_options.h"
 #include "apps/view_choice.h"
 #include "sorting/registry.h"
 
@@ -15,6 +16,7 @@ struct Arguments {
     std::shared_ptr<SceneSource> source;
     std::shared_ptr<ViewChoice> view;
     std::string sorter = "auto";
+    SorterOptions sorter_options;
     std::string output;
     std::string map;
 };
@@ -25,7 +27,7 @@ int run(const Arguments& arguments)
     const std::vector<CellId> cell_of = std::move(sourced.cell_of);
     const Scene scene(std::move(sourced.mesh));
     const View view = view_of(*arguments.view, scene);
-    const auto sorter = make_sorter(arguments.sorter, scene);
+    const auto sorter = make_sorter(arguments.sorter, scene, arguments.sorter_options);
     Order order;
     sorter->sort(view, order);
     write_order(arguments.output, order.back_to_front);
@@ -49,6 +51,7 @@ void add_sort_command(CLI::App& app, Command& chosen)
     arguments->view = add_view_choice(*command);
     command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
         ->capture_default_str();
+    add_sorter_options(*command, arguments->sorter_options);
     command->add_option("-o,--output", arguments->output, "Where to: .npy, or text with a cell a line")->required();
     command->add_option("--map", arguments->map,
                         "Also write, for each tetrahedron, the cell of the mesh it is part of");

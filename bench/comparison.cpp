@@ -80,7 +80,7 @@ const SorterInfo& info_of(std::string_view name)
     return *std::find_if(known.begin(), known.end(), [&](const SorterInfo& info) { return name == info.name; });
 }
 
-Candidate make_candidate(const SorterInfo& info, const Scene& scene)
+Candidate make_candidate(const SorterInfo& info, const Scene& scene, const SorterOptions& options)
 {
     Candidate candidate{&info, {info.structures.begin(), info.structures.end()}, nullptr, 0, {}};
     if (std::string_view(info.name) == "auto")
@@ -90,7 +90,7 @@ Candidate make_candidate(const SorterInfo& info, const Scene& scene)
     const std::size_t derived_before = scene.derived().size();
     const double begin = now();
     try {
-        candidate.sorter = make_sorter(info.name, scene);
+        candidate.sorter = make_sorter(info.name, scene, options);
     } catch (const InputError& error) {
         candidate.skipped = error.what();
         return candidate;
@@ -117,6 +117,7 @@ void measure(const Scene& scene, Candidate& candidate, const NamedView& view, in
     run.sort_s = median(std::move(seconds));
     run.prepare_s = candidate.make_s;
     run.structure_bytes = sorter.bytes();
+    run.statistics = sorter.statistics();
     for (const StructureRecord& record : scene.derived())
         if (contains(candidate.structures, record.structure)) {
             run.prepare_s += record.seconds;
@@ -145,7 +146,7 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
         if (options.sorters.empty() ||
             std::find(options.sorters.begin(), options.sorters.end(), info.name) != options.sorters.end()) {
             progress(fmt::format("{}: preparing {}", source.name, info.name));
-            candidates.push_back(make_candidate(info, scene));
+            candidates.push_back(make_candidate(info, scene, options.sorter_options));
         }
 
     progress(fmt::format("{}: traits", source.name));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/mesh.h"
-#include "sorting/sorter.h"
+#include "sorting/registry.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +27,7 @@ struct ComparisonOptions {
     bool subdivide = true;                    ///< zoo cells into tetrahedra
     bool weld = false;                        ///< points of files with exactly equal coordinates
     std::string scalar;                       ///< of files; empty: the format's default
+    SorterOptions sorter_options;
 };
 
 /// A scene as the result format has it.
@@ -57,7 +58,8 @@ struct RunResult {
     std::size_t cells_in_cycles = 0;
     std::optional<double> image_rmse;
     std::optional<double> image_max;
-    std::string skipped; ///< why, where the sorter cannot take the scene; nothing else is measured then
+    std::vector<Statistic> statistics; ///< of the last sort
+    std::string skipped;               ///< why, where the sorter cannot take the scene; nothing else is measured then
 
     /// Whether the sorter broke its promise.
     bool failed() const { return skipped.empty() && guarantee == Guarantee::exact && violations > 0; }

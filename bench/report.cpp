@@ -102,6 +102,20 @@ std::string line_of(const Row& row, std::size_t cells)
                        row.image_rmse < 0 ? "-" : fmt::format("{:.2e}", row.image_rmse), cycles);
 }
 
+// Those of all runs of a sorter on a scene, of which `first` is one.
+std::string statistics_of(const Comparison& comparison, const RunResult& first)
+{
+    std::string text;
+    for (std::size_t i = 0; i < first.statistics.size(); ++i) {
+        std::vector<double> values;
+        for (const RunResult& run : comparison.runs)
+            if (run.scene == first.scene && run.sorter == first.sorter)
+                values.push_back(run.statistics[i].value);
+        text += fmt::format("  {:<16}   {} {:.6g}\n", "", first.statistics[i].name, median(std::move(values)));
+    }
+    return text;
+}
+
 template <class T>
 nlohmann::ordered_json or_null(const std::optional<T>& value)
 {
@@ -122,7 +136,7 @@ Machine this_machine()
     return machine;
 }
 
-std::string table(const Comparison& comparison, bool colour)
+std::string table(const Comparison& comparison, bool colour, bool statistics)
 {
     std::string text =
         fmt::format("  {:<16} {:<11} {:>10} {:>10} {:>8} {:>8}  {:>11} of {:<13} {:>8}   {}\n", "sorter", "guarantee",
@@ -141,6 +155,8 @@ std::string table(const Comparison& comparison, bool colour)
         text += row.failed && colour ? fmt::format("\033[31m{}   BROKEN GUARANTEE\033[0m\n", line)
                 : row.failed         ? fmt::format("{}   BROKEN GUARANTEE\n", line)
                                      : line + "\n";
+        if (statistics)
+            text += statistics_of(comparison, *row.first);
     }
     return text;
 }
@@ -176,6 +192,9 @@ std::string json(const Comparison& comparison, const Machine& machine)
             entry["cells_in_cycles"] = run.cells_in_cycles;
             entry["image_rmse"] = or_null(run.image_rmse);
             entry["image_max"] = or_null(run.image_max);
+            entry["statistics"] = Json::object();
+            for (const Statistic& statistic : run.statistics)
+                entry["statistics"][statistic.name] = statistic.value;
         }
         document["runs"].push_back(std::move(entry));
     }

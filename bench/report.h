@@ -15,8 +15,8 @@ struct Machine {
 Machine this_machine();
 
 /// The comparison as a table, a line a sorter and scene: times are medians over views, counts are sums. `colour` marks
-/// broken guarantees in red for a terminal.
-std::string table(const Comparison& comparison, bool colour);
+/// broken guarantees in red for a terminal; `statistics` adds those of each sorter, as medians over views.
+std::string table(const Comparison& comparison, bool colour, bool statistics);
 
 /// The comparison in the project's result format: every run of every view. What was not measured is null.
 std::string json(const Comparison& comparison, const Machine& machine);

@@ -9,8 +9,18 @@
 
 namespace visorder {
 
+/// The rays that `xmpvo` shoots.
+enum class XmpvoRays {
+    faces,    ///< through every boundary face: its centre and its vertices, pulled in
+    crossings ///< those, and through the crossings of projected silhouette edges
+};
+
 /// Options of the sorters; each reads those that concern it.
-struct SorterOptions {};
+struct SorterOptions {
+    XmpvoRays xmpvo_rays = XmpvoRays::crossings;
+    bool newell_windows = false; ///< `newell` keeps a list of cells for each of several windows of the image plane
+    std::uint64_t bsp_seed = 1;  ///< of the samples from which `bsp-xmpvo` takes its splitting planes
+};
 
 /// What there is to know of a sorter before making one.
 struct SorterInfo {

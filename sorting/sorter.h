@@ -22,6 +22,12 @@ enum class Guarantee { exact, approximate };
 
 const char* name(Guarantee guarantee);
 
+/// A count or a time that tells what a sorter did.
+struct Statistic {
+    const char* name; ///< with its unit, where it has one
+    double value;
+};
+
 /// One way of ordering the cells of one scene. Holds a reference to its Scene, which must outlive it. One `sort` at a
 /// time on one sorter; any number of sorters on one Scene.
 class Sorter {
@@ -36,6 +42,10 @@ public:
 
     /// Bytes the sorter itself holds, beyond the structures of its Scene.
     virtual std::size_t bytes() const { return 0; }
+
+    /// What making the sorter and its last `sort` took, sorter by sorter: rays shot, nodes visited, pairs tested. The
+    /// same names in the same order on every call.
+    virtual std::vector<Statistic> statistics() const { return {}; }
 };
 
 } // namespace visorder
