@@ -275,7 +275,7 @@ Relation unpacked(std::uint64_t relation)
 
 struct Found {
     std::vector<std::uint64_t> relations;
-    std::vector<std::pair<CellFace, CellFace>> crossings;
+    std::vector<std::pair<CellId, CellId>> crossings;
     std::size_t candidates = 0;
 };
 
@@ -316,25 +316,27 @@ public:
     void collect(BoundaryRelations& result)
     {
         std::vector<std::uint64_t> relations;
-        result.crossings.clear();
+        result.overlapping = scene_.overlapping_cells();
         result.candidates = 0;
         for (const Found& found : found_) {
             relations.insert(relations.end(), found.relations.begin(), found.relations.end());
-            result.crossings.insert(result.crossings.end(), found.crossings.begin(), found.crossings.end());
+            result.overlapping.insert(result.overlapping.end(), found.crossings.begin(), found.crossings.end());
             result.candidates += found.candidates;
         }
         // A pair is found once a chart and once for every two faces.
         oneapi::tbb::parallel_sort(relations);
         relations.erase(std::unique(relations.begin(), relations.end()), relations.end());
+        std::vector<std::pair<CellId, CellId>>& overlapping = result.overlapping;
+        std::sort(overlapping.begin(), overlapping.end());
+        overlapping.erase(std::unique(overlapping.begin(), overlapping.end()), overlapping.end());
+        if (!overlapping.empty())
+            std::erase_if(relations, [&](std::uint64_t packed) {
+                const Relation relation = unpacked(packed);
+                const std::pair<CellId, CellId> pair = std::minmax(relation.front, relation.back);
+                return std::binary_search(overlapping.begin(), overlapping.end(), pair);
+            });
         result.relations.resize(relations.size());
         in_parallel(relations.size(), 4096, [&](std::size_t i) { result.relations[i] = unpacked(relations[i]); });
-
-        const auto key = [](const std::pair<CellFace, CellFace>& pair) {
-            return std::tuple(pair.first.cell, pair.second.cell, pair.first.face, pair.second.face);
-        };
-        std::sort(result.crossings.begin(), result.crossings.end(),
-                  [&](const auto& a, const auto& b) { return key(a) < key(b); });
-        result.crossings.erase(std::unique(result.crossings.begin(), result.crossings.end()), result.crossings.end());
     }
 
 private:
@@ -346,7 +348,7 @@ private:
         ++found.candidates;
         const Overlap overlap = face_overlap(f.seen, g.seen, eye_);
         if (overlap == Overlap::crossing)
-            found.crossings.emplace_back(f.owner, g.owner);
+            found.crossings.push_back(std::minmax(front, back));
         else if (overlap == Overlap::nearer || (overlap == Overlap::coincident && adjacency_ != nullptr))
             found.relations.push_back(packed(front, back));
     }

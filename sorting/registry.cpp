@@ -13,6 +13,7 @@ namespace visorder {
 std::unique_ptr<Sorter> make_centroid(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_power(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_mpvo(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_xmpvo_exact(const Scene&, const SorterOptions&);
 #if defined(VISORDER_WITH_VTK)
 std::unique_ptr<Sorter> make_vtk_cell_center(const Scene&, const SorterOptions&);
 #endif
@@ -28,6 +29,8 @@ constexpr std::array for_centroid{Structure::numbering, Structure::centroids};
 constexpr std::array for_power{Structure::numbering, Structure::circumspheres};
 constexpr std::array for_mpvo{Structure::numbering, Structure::adjacency, Structure::orientations,
                               Structure::face_planes};
+constexpr std::array for_xmpvo_exact{Structure::numbering, Structure::adjacency,   Structure::orientations,
+                                     Structure::boundary,  Structure::face_planes, Structure::overlapping_cells};
 constexpr std::array for_auto{Structure::numbering, Structure::adjacency, Structure::orientations, Structure::boundary,
                               Structure::traits};
 #if defined(VISORDER_WITH_VTK)
@@ -46,6 +49,9 @@ constexpr std::array infos
                    for_power},
         SorterInfo{"mpvo", "topological sort over the relations across interior faces", "Williams 1992",
                    "on convex meshes", for_mpvo},
+        SorterInfo{"xmpvo-exact",
+                   "topological sort, also over every pair of boundary faces of which one covers the other",
+                   "Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000", "always", for_xmpvo_exact},
         SorterInfo{"auto", "the cheapest sorter that is exact for the scene, else the best there is",
                    "traits of the scene", "where the sorter it stands for is", for_auto},
 #if defined(VISORDER_WITH_VTK)
@@ -56,7 +62,7 @@ constexpr std::array infos
 
 constexpr std::array makers
 {
-    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_auto},
+    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_xmpvo_exact}, Make{make_auto},
 #if defined(VISORDER_WITH_VTK)
         Make{make_vtk_cell_center},
 #endif
