@@ -1,0 +1,360 @@
+#include "bsp/bsp_xmpvo.h"
+
+#include "scene/face_loop.h"
+#include "sorting/registry.h"
+
+#include <algorithm>
+#include <array>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <utility>
+
+namespace visorder {
+
+namespace {
+
+constexpr std::uint8_t exit_role = 1;
+constexpr std::uint8_t entry_role = 2;
+constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::size_t faces_between_lists = 64; // that the walk passes before cells that became ready are listed
+constexpr std::size_t prefetch_rows = 16;
+constexpr std::size_t prefetch_states = 6;
+
+constexpr auto bits_set = [] {
+    std::array<std::uint8_t, 1 << max_cell_faces> table{};
+    for (std::size_t bits = 1; bits < table.size(); ++bits)
+        table[bits] = static_cast<std::uint8_t>(table[bits / 2] + bits % 2);
+    return table;
+}();
+
+// The distinct points of a face of the tree.
+struct FacePoints {
+    std::array<glm::dvec3, max_face_vertices> points;
+    std::size_t count = 0;
+
+    std::span<const glm::dvec3> span() const { return {points.data(), count}; }
+};
+
+FacePoints points_of(const Scene& scene, const CellFace& face)
+{
+    const Mesh& mesh = scene.mesh();
+    FacePoints result;
+    const auto add = [&](PointId v) { result.points[result.count++] = mesh.points[v]; };
+    if (scene.is_surface())
+        for (PointId v : mesh.cell(face.cell))
+            add(v);
+    else
+        for (PointId v : face_loop(mesh, face.cell, static_cast<int>(face.face)))
+            add(v);
+    return result;
+}
+
+} // namespace
+
+// One frame. A cell's state holds, in the lowest `row` bits, its interior entry faces; then one bit if exit faces wait
+// for the cell; above, for how many of its exit faces it waits itself. At zero it is ready, and goes to the end of the
+// Order, which is the queue of the topological sort at once.
+template <int row, class State>
+class BspMerge {
+public:
+    BspMerge(BspXmpvo& sorter, State* state, const glm::dvec4& eye, CellId* queue)
+        : sorter_(sorter),
+          eye_(eye),
+          state_(state),
+          neighbour_(row > 0 ? sorter.scene_.adjacency().neighbour.data() : nullptr),
+          queue_(queue)
+    {
+    }
+
+    // Returns how many cells were listed.
+    std::size_t run()
+    {
+        count();
+        std::size_t passed = 0;
+        sorter_.tree_.walk(eye_, [&](std::span<const std::uint32_t> group) {
+            pass(group);
+            passed += group.size();
+            if (passed >= faces_between_lists) {
+                list();
+                passed = 0;
+            }
+        });
+        list();
+        return listed_;
+    }
+
+private:
+    static constexpr State has_waiting = State{1} << row;
+    static constexpr State one = State{2} << row;
+
+    static bool ready(State s) { return s < one; }
+    CellId owner(std::uint32_t face) const { return sorter_.tree_.faces()[face].cell; }
+
+    void count()
+    {
+        const CellId cells = sorter_.scene_.cell_count();
+        if constexpr (row > 0) {
+            const Adjacency& adjacency = sorter_.scene_.adjacency();
+            const FaceSigns& signs = sorter_.signs_;
+            oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, cells, 16384), [&](const auto& range) {
+                for (CellId cell = range.begin(); cell < range.end(); ++cell) {
+                    const std::uint32_t interior = adjacency.interior[cell];
+                    const std::uint32_t obstructed = bits_set[signs.exit(cell) & interior];
+                    state_[cell] = static_cast<State>((signs.entry(cell) & interior) | obstructed * one);
+                }
+            });
+        } else {
+            std::fill_n(state_, cells, State{0});
+        }
+        for (std::uint32_t face = 0; face < sorter_.roles_.size(); ++face)
+            if ((sorter_.roles_[face] & exit_role) != 0)
+                state_[owner(face)] = static_cast<State>(state_[owner(face)] + one);
+        for (CellId cell = 0; cell < cells; ++cell) {
+            queue_[ready_] = cell;
+            ready_ += ready(state_[cell]);
+        }
+    }
+
+    // The walk has come to some faces that are in one plane or in no order: first what may be covered, then what may
+    // cover.
+    void pass(std::span<const std::uint32_t> group)
+    {
+        for (std::uint32_t face : group)
+            if ((sorter_.roles_[face] & entry_role) != 0 &&
+                sorter_.groups_left_[face] == sorter_.tree_.group_counts()[face] && !ready(state_[owner(face)])) {
+                sorter_.pending_.add(face);
+                ++sorter_.pending_count_;
+            }
+        for (std::uint32_t face : group)
+            if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0)
+                pass_exit(face);
+    }
+
+    void pass_exit(std::uint32_t face)
+    {
+        const auto is_listed = [&](std::uint32_t entry) { return ready(state_[owner(entry)]); };
+        sorter_.pending_.search(face, is_listed, [&](std::uint32_t entry) {
+            if (!sorter_.obstructs(face, entry, eye_))
+                return;
+            ++sorter_.relation_count_;
+            ++sorter_.holds_left_[face];
+            sorter_.waiting_.push_back({face, sorter_.waiting_head_[entry]});
+            sorter_.waiting_head_[entry] = static_cast<std::uint32_t>(sorter_.waiting_.size() - 1);
+            State& state = state_[owner(entry)];
+            state = static_cast<State>(state | has_waiting);
+        });
+        let_go(face);
+    }
+
+    // One thing less for which the cell of an exit face waits.
+    void let_go(std::uint32_t face)
+    {
+        if (--sorter_.holds_left_[face] > 0)
+            return;
+        State& state = state_[owner(face)];
+        state = static_cast<State>(state - one);
+        queue_[ready_] = owner(face);
+        ready_ += ready(state);
+    }
+
+    // Lists the cells that are ready, and those that become so.
+    void list()
+    {
+        // Held in local variables: the compiler takes a store of a byte to change anything that is not local.
+        State* const state = state_;
+        const CellId* const neighbour = neighbour_;
+        CellId* const queue = queue_;
+        std::size_t ready_end = ready_;
+        for (; listed_ < ready_end; ++listed_) {
+            if constexpr (row > 0)
+                if (listed_ + prefetch_rows < ready_end) {
+                    __builtin_prefetch(neighbour + std::size_t{queue[listed_ + prefetch_rows]} * row);
+                    const CellId* soon = neighbour + std::size_t{queue[listed_ + prefetch_states]} * row;
+                    for (int f = 0; f < row; ++f)
+                        __builtin_prefetch(state + soon[f], 1);
+                }
+            const CellId cell = queue[listed_];
+            const State s = state[cell];
+            if constexpr (row > 0) {
+                const CellId* across = neighbour + std::size_t{cell} * row;
+                for (int f = 0; f < row; ++f) {
+                    const auto holds = static_cast<State>(s >> f & 1u);
+                    const auto left = static_cast<State>(state[across[f]] - holds * one);
+                    state[across[f]] = left;
+                    queue[ready_end] = across[f];
+                    ready_end += holds & static_cast<State>(ready(left));
+                }
+            }
+            if ((s & has_waiting) != 0) {
+                ready_ = ready_end;
+                release(cell);
+                ready_end = ready_;
+            }
+        }
+        ready_ = ready_end;
+    }
+
+    // Those that waited for a cell that has now been listed.
+    void release(CellId cell)
+    {
+        const std::span<const CellFace> faces = sorter_.tree_.faces();
+        const auto first = std::lower_bound(faces.begin(), faces.end(), cell,
+                                            [](const CellFace& face, CellId c) { return face.cell < c; });
+        for (auto face = static_cast<std::uint32_t>(first - faces.begin());
+             face < faces.size() && faces[face].cell == cell; ++face)
+            for (std::uint32_t i = sorter_.waiting_head_[face]; i != none; i = sorter_.waiting_[i].next)
+                let_go(sorter_.waiting_[i].exit_face);
+    }
+
+    BspXmpvo& sorter_;
+    const glm::dvec4& eye_;
+    State* state_;
+    const CellId* neighbour_;
+    CellId* queue_;
+    std::size_t listed_ = 0;
+    std::size_t ready_ = 0;
+};
+
+BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
+    : scene_(scene),
+      tree_(
+          [&]() -> const Scene& {
+              if (!scene.is_surface())
+                  scene.face_planes();
+              scene.overlapping_cells();
+              return scene;
+          }(),
+          seed)
+{
+}
+
+void BspXmpvo::look_at_faces(const glm::dvec4& eye)
+{
+    const std::span<const CellFace> faces = tree_.faces();
+    const ProjectionCharts charts(scene_.bounds(), eye);
+    roles_.resize(faces.size());
+    groups_left_.assign(tree_.group_counts().begin(), tree_.group_counts().end());
+    holds_left_.assign(faces.size(), 1); // until the walk has passed it
+    waiting_head_.assign(faces.size(), none);
+    waiting_.clear();
+    seen_.resize(faces.size());
+    is_seen_.assign(faces.size(), 0);
+    boxes_.reset(faces.size(), charts.count());
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, faces.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            roles_[i] = 0;
+            if (groups_left_[i] == 0)
+                continue;
+            const FacePoints points = points_of(scene_, faces[i]);
+            if (scene_.is_surface()) {
+                seen_[i] = seen_face(points.span(), eye);
+                is_seen_[i] = 1;
+                roles_[i] = seen_[i].turn == Sign::zero ? 0 : exit_role | entry_role;
+            } else {
+                roles_[i] = (signs_.exit(faces[i].cell) >> faces[i].face & 1u) != 0    ? exit_role
+                            : (signs_.entry(faces[i].cell) >> faces[i].face & 1u) != 0 ? entry_role
+                                                                                       : 0;
+            }
+            for (int chart = 0; roles_[i] != 0 && chart < charts.count(); ++chart)
+                if (const auto box = charts.box(points.span(), chart))
+                    boxes_.set(i, chart, *box);
+        }
+    });
+    pending_.reset(boxes_, faces.size());
+    pending_count_ = test_count_ = relation_count_ = 0;
+}
+
+const SeenFace& BspXmpvo::seen(std::uint32_t face, const glm::dvec4& eye)
+{
+    if (is_seen_[face] == 0) {
+        seen_[face] = seen_face(points_of(scene_, tree_.faces()[face]).span(), eye);
+        is_seen_[face] = 1;
+    }
+    return seen_[face];
+}
+
+bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
+{
+    const CellId front = tree_.faces()[f].cell, back = tree_.faces()[g].cell;
+    if (front == back)
+        return false;
+    if (!scene_.is_surface()) {
+        const auto row = scene_.adjacency().row(front);
+        if (std::find(row.begin(), row.end(), back) != row.end())
+            return false; // the face between them carries the relation
+    }
+    ++test_count_;
+    const Overlap overlap = face_overlap(seen(f, eye), seen(g, eye), eye);
+    if (overlap != Overlap::nearer && (overlap != Overlap::coincident || scene_.is_surface()))
+        return false;
+    const auto& overlapping = scene_.overlapping_cells();
+    const std::pair<CellId, CellId> pair = std::minmax(front, back);
+    return !std::binary_search(overlapping.begin(), overlapping.end(), pair);
+}
+
+template <int row, class State>
+bool BspXmpvo::sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order)
+{
+    const CellId cells = scene_.cell_count();
+    state.resize(cells);
+    resize_on_large_pages(order.back_to_front, std::size_t{cells} + 1); // one more to write to without a question
+    BspMerge<row, State> merge(*this, state.data(), eye, order.back_to_front.data());
+    const bool complete = merge.run() == cells;
+    order.back_to_front.resize(cells);
+    if (!complete)
+        return false;
+    const auto caller_cells = scene_.caller_cells();
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, cells, 16384), [&](const auto& range) {
+        for (CellId i = range.begin(); i < range.end(); ++i)
+            order.back_to_front[i] = caller_cells[order.back_to_front[i]];
+    });
+    order.layer_begin.clear();
+    order.cycles.clear();
+    return true;
+}
+
+void BspXmpvo::sort(const View& view, Order& order)
+{
+    validate(view);
+    if (!scene_.is_surface())
+        signs_.evaluate(scene_, view.eye);
+    look_at_faces(view.eye);
+    const bool complete = scene_.is_surface()                  ? sort_by<0>(small_state_, view.eye, order)
+                          : scene_.adjacency().row_length == 4 ? sort_by<4>(small_state_, view.eye, order)
+                                                               : sort_by<6>(large_state_, view.eye, order);
+    if (!complete)
+        sort_with_cycles(view.eye, order);
+}
+
+void BspXmpvo::sort_with_cycles(const glm::dvec4& eye, Order& order)
+{
+    boundary_relations(scene_, eye, all_relations_);
+    if (scene_.is_surface())
+        topological_sort_.run(scene_, all_relations_.relations, order);
+    else
+        topological_sort_.run(scene_, signs_, all_relations_.relations, order);
+    order.layer_begin.clear();
+}
+
+std::size_t BspXmpvo::bytes() const
+{
+    const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+    return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
+           size_of(groups_left_) + size_of(holds_left_) + size_of(waiting_head_) + size_of(seen_) + size_of(is_seen_) +
+           size_of(waiting_) + boxes_.bytes() + pending_.bytes() + size_of(all_relations_.relations) +
+           topological_sort_.bytes();
+}
+
+std::vector<Statistic> BspXmpvo::statistics() const
+{
+    return {{"nodes", static_cast<double>(tree_.node_count())}, {"splits", static_cast<double>(tree_.split_count())},
+            {"depth", static_cast<double>(tree_.depth())},      {"pending faces", static_cast<double>(pending_count_)},
+            {"pair tests", static_cast<double>(test_count_)},   {"relations", static_cast<double>(relation_count_)}};
+}
+
+std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)
+{
+    return std::make_unique<BspXmpvo>(scene, options.bsp_seed);
+}
+
+} // namespace visorder
