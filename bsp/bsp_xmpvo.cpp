@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
@@ -51,18 +52,19 @@ FacePoints points_of(const Scene& scene, const CellFace& face)
 
 } // namespace
 
-// One frame. A cell's state holds, in the lowest `row` bits, its interior entry faces; then one bit if exit faces wait
-// for the cell; above, for how many of its exit faces it waits itself. At zero it is ready, and goes to the end of the
-// Order, which is the queue of the topological sort at once.
+// One frame. A cell's state holds, in the lowest `row` bits, its interior entry faces; then one bit if it has boundary
+// faces in the tree; above, for how many of its exit faces it waits: interior ones for the cell behind, boundary ones
+// for the walk. At zero it is ready, and waits in the queue to be listed.
 template <int row, class State>
 class BspMerge {
 public:
-    BspMerge(BspXmpvo& sorter, State* state, const glm::dvec4& eye, CellId* queue)
+    BspMerge(BspXmpvo& sorter, State* state, const glm::dvec4& eye, Order& order)
         : sorter_(sorter),
           eye_(eye),
           state_(state),
           neighbour_(row > 0 ? sorter.scene_.adjacency().neighbour.data() : nullptr),
-          queue_(queue)
+          caller_cells_(sorter.scene_.caller_cells().data()),
+          order_(order.back_to_front.data())
     {
     }
 
@@ -84,7 +86,7 @@ public:
     }
 
 private:
-    static constexpr State has_waiting = State{1} << row;
+    static constexpr State at_boundary = State{1} << row;
     static constexpr State one = State{2} << row;
 
     static bool ready(State s) { return s < one; }
@@ -107,12 +109,23 @@ private:
             std::fill_n(state_, cells, State{0});
         }
         for (std::uint32_t face = 0; face < sorter_.roles_.size(); ++face)
-            if ((sorter_.roles_[face] & exit_role) != 0)
-                state_[owner(face)] = static_cast<State>(state_[owner(face)] + one);
+            if (sorter_.roles_[face] != 0) {
+                const State more = (sorter_.roles_[face] & exit_role) != 0 ? one : State{0};
+                State& state = state_[owner(face)];
+                state = static_cast<State>((state + more) | at_boundary);
+            }
+        make_room(cells + 1);
+        CellId* const queue = sorter_.queue_.data();
         for (CellId cell = 0; cell < cells; ++cell) {
-            queue_[ready_] = cell;
+            queue[ready_] = cell;
             ready_ += ready(state_[cell]);
         }
+    }
+
+    void make_room(std::size_t size)
+    {
+        if (sorter_.queue_.size() < size)
+            sorter_.queue_.resize(size + size / 8);
     }
 
     // The walk has come to some faces that are in one plane or in no order: first what may be covered, then what may
@@ -121,41 +134,20 @@ private:
     {
         for (std::uint32_t face : group)
             if ((sorter_.roles_[face] & entry_role) != 0 &&
-                sorter_.groups_left_[face] == sorter_.tree_.group_counts()[face] && !ready(state_[owner(face)])) {
+                sorter_.groups_left_[face] == sorter_.tree_.group_counts()[face] && !is_listed(face)) {
                 sorter_.pending_.add(face);
                 ++sorter_.pending_count_;
             }
         for (std::uint32_t face : group)
-            if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0)
-                pass_exit(face);
+            if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0) {
+                State& state = state_[owner(face)];
+                state = static_cast<State>(state - one);
+                sorter_.queue_[ready_] = owner(face);
+                ready_ += ready(state);
+            }
     }
 
-    void pass_exit(std::uint32_t face)
-    {
-        const auto is_listed = [&](std::uint32_t entry) { return ready(state_[owner(entry)]); };
-        sorter_.pending_.search(face, is_listed, [&](std::uint32_t entry) {
-            if (!sorter_.obstructs(face, entry, eye_))
-                return;
-            ++sorter_.relation_count_;
-            ++sorter_.holds_left_[face];
-            sorter_.waiting_.push_back({face, sorter_.waiting_head_[entry]});
-            sorter_.waiting_head_[entry] = static_cast<std::uint32_t>(sorter_.waiting_.size() - 1);
-            State& state = state_[owner(entry)];
-            state = static_cast<State>(state | has_waiting);
-        });
-        let_go(face);
-    }
-
-    // One thing less for which the cell of an exit face waits.
-    void let_go(std::uint32_t face)
-    {
-        if (--sorter_.holds_left_[face] > 0)
-            return;
-        State& state = state_[owner(face)];
-        state = static_cast<State>(state - one);
-        queue_[ready_] = owner(face);
-        ready_ += ready(state);
-    }
+    bool is_listed(std::uint32_t face) const { return sorter_.is_listed_[sorter_.boundary_cells_.of_face(face)] != 0; }
 
     // Lists the cells that are ready, and those that become so.
     void list()
@@ -163,69 +155,111 @@ private:
         // Held in local variables: the compiler takes a store of a byte to change anything that is not local.
         State* const state = state_;
         const CellId* const neighbour = neighbour_;
-        CellId* const queue = queue_;
+        const CellId* queue = sorter_.queue_.data();
+        CellId* to_queue = sorter_.queue_.data();
         std::size_t ready_end = ready_;
-        for (; listed_ < ready_end; ++listed_) {
-            if constexpr (row > 0)
-                if (listed_ + prefetch_rows < ready_end) {
-                    __builtin_prefetch(neighbour + std::size_t{queue[listed_ + prefetch_rows]} * row);
-                    const CellId* soon = neighbour + std::size_t{queue[listed_ + prefetch_states]} * row;
+        for (std::size_t at = queue_begin_; at < ready_end; ++at) {
+            if (at + prefetch_rows < ready_end) {
+                const CellId ahead = queue[at + prefetch_rows];
+                __builtin_prefetch(caller_cells_ + ahead);
+                if constexpr (row > 0) {
+                    __builtin_prefetch(neighbour + std::size_t{ahead} * row);
+                    const CellId* soon = neighbour + std::size_t{queue[at + prefetch_states]} * row;
                     for (int f = 0; f < row; ++f)
                         __builtin_prefetch(state + soon[f], 1);
                 }
-            const CellId cell = queue[listed_];
+            }
+            const CellId cell = queue[at];
             const State s = state[cell];
+            if ((s & at_boundary) != 0) {
+                ready_ = ready_end;
+                const bool listed = list_at_boundary(cell);
+                ready_end = ready_;
+                queue = to_queue = sorter_.queue_.data();
+                if (!listed)
+                    continue;
+            }
+            order_[listed_++] = caller_cells_[cell];
             if constexpr (row > 0) {
                 const CellId* across = neighbour + std::size_t{cell} * row;
                 for (int f = 0; f < row; ++f) {
                     const auto holds = static_cast<State>(s >> f & 1u);
                     const auto left = static_cast<State>(state[across[f]] - holds * one);
                     state[across[f]] = left;
-                    queue[ready_end] = across[f];
+                    to_queue[ready_end] = across[f];
                     ready_end += holds & static_cast<State>(ready(left));
                 }
             }
-            if ((s & has_waiting) != 0) {
-                ready_ = ready_end;
-                release(cell);
-                ready_end = ready_;
-            }
         }
-        ready_ = ready_end;
+        queue_begin_ = ready_ = ready_end;
     }
 
-    // Those that waited for a cell that has now been listed.
-    void release(CellId cell)
+    // Whether a cell that is ready covers no pending face, and is listed; else it waits for the cell of one that it
+    // covers.
+    bool list_at_boundary(CellId cell)
     {
-        const std::span<const CellFace> faces = sorter_.tree_.faces();
-        const auto first = std::lower_bound(faces.begin(), faces.end(), cell,
-                                            [](const CellFace& face, CellId c) { return face.cell < c; });
-        for (auto face = static_cast<std::uint32_t>(first - faces.begin());
-             face < faces.size() && faces[face].cell == cell; ++face)
-            for (std::uint32_t i = sorter_.waiting_head_[face]; i != none; i = sorter_.waiting_[i].next)
-                let_go(sorter_.waiting_[i].exit_face);
+        const std::size_t boundary_cell = sorter_.boundary_cells_.of_cell(cell);
+        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
+        for (std::uint32_t face = begin; face < end; ++face) {
+            if ((sorter_.roles_[face] & exit_role) == 0)
+                continue;
+            const auto listed = [&](std::uint32_t entry) { return is_listed(entry); };
+            std::uint32_t covered = none;
+            sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
+                if (sorter_.obstructs(face, entry, eye_))
+                    covered = entry;
+                return covered == none;
+            });
+            if (covered == none)
+                continue;
+            ++sorter_.relation_count_;
+            const std::size_t behind = sorter_.boundary_cells_.of_face(covered);
+            sorter_.waiting_.push_back({cell, sorter_.waiting_head_[behind]});
+            sorter_.waiting_head_[behind] = static_cast<std::uint32_t>(sorter_.waiting_.size() - 1);
+            make_room(sorter_.scene_.cell_count() + sorter_.waiting_.size() + 1);
+            return false;
+        }
+        sorter_.is_listed_[boundary_cell] = 1;
+        for (std::uint32_t i = sorter_.waiting_head_[boundary_cell]; i != none; i = sorter_.waiting_[i].next)
+            sorter_.queue_[ready_++] = sorter_.waiting_[i].cell;
+        return true;
     }
 
     BspXmpvo& sorter_;
     const glm::dvec4& eye_;
     State* state_;
     const CellId* neighbour_;
-    CellId* queue_;
-    std::size_t listed_ = 0;
+    const CellId* caller_cells_;
+    CellId* order_;
+    std::size_t queue_begin_ = 0;
     std::size_t ready_ = 0;
+    std::size_t listed_ = 0;
 };
 
-BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
-    : scene_(scene),
-      tree_(
-          [&]() -> const Scene& {
-              if (!scene.is_surface())
-                  scene.face_planes();
-              scene.overlapping_cells();
-              return scene;
-          }(),
-          seed)
+BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells)
+    : bits_((std::size_t{cells} + 63) / 64), before_(bits_.size())
 {
+    for (std::uint32_t face = 0; face < faces.size(); ++face) {
+        const CellId cell = faces[face].cell;
+        if (face == 0 || faces[face - 1].cell != cell)
+            first_face_.push_back(face);
+        of_face_.push_back(static_cast<std::uint32_t>(first_face_.size() - 1));
+        bits_[cell / 64] |= std::uint64_t{1} << cell % 64;
+    }
+    first_face_.push_back(static_cast<std::uint32_t>(faces.size()));
+    std::uint32_t before = 0;
+    for (std::size_t i = 0; i < bits_.size(); ++i) {
+        before_[i] = before;
+        before += static_cast<std::uint32_t>(std::popcount(bits_[i]));
+    }
+}
+
+BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
+    : scene_(scene), tree_(scene, seed), boundary_cells_(tree_.faces(), scene.cell_count())
+{
+    if (!scene.is_surface())
+        scene.face_planes();
+    scene.overlapping_cells();
 }
 
 void BspXmpvo::look_at_faces(const glm::dvec4& eye)
@@ -234,8 +268,8 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     const ProjectionCharts charts(scene_.bounds(), eye);
     roles_.resize(faces.size());
     groups_left_.assign(tree_.group_counts().begin(), tree_.group_counts().end());
-    holds_left_.assign(faces.size(), 1); // until the walk has passed it
-    waiting_head_.assign(faces.size(), none);
+    is_listed_.assign(boundary_cells_.count(), 0);
+    waiting_head_.assign(boundary_cells_.count(), none);
     waiting_.clear();
     seen_.resize(faces.size());
     is_seen_.assign(faces.size(), 0);
@@ -297,17 +331,10 @@ bool BspXmpvo::sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& o
 {
     const CellId cells = scene_.cell_count();
     state.resize(cells);
-    resize_on_large_pages(order.back_to_front, std::size_t{cells} + 1); // one more to write to without a question
-    BspMerge<row, State> merge(*this, state.data(), eye, order.back_to_front.data());
-    const bool complete = merge.run() == cells;
-    order.back_to_front.resize(cells);
-    if (!complete)
+    resize_on_large_pages(order.back_to_front, cells);
+    BspMerge<row, State> merge(*this, state.data(), eye, order);
+    if (merge.run() < cells)
         return false;
-    const auto caller_cells = scene_.caller_cells();
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, cells, 16384), [&](const auto& range) {
-        for (CellId i = range.begin(); i < range.end(); ++i)
-            order.back_to_front[i] = caller_cells[order.back_to_front[i]];
-    });
     order.layer_begin.clear();
     order.cycles.clear();
     return true;
@@ -340,9 +367,9 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(groups_left_) + size_of(holds_left_) + size_of(waiting_head_) + size_of(seen_) + size_of(is_seen_) +
-           size_of(waiting_) + boxes_.bytes() + pending_.bytes() + size_of(all_relations_.relations) +
-           topological_sort_.bytes();
+           size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + size_of(seen_) +
+           size_of(is_seen_) + size_of(waiting_) + boxes_.bytes() + pending_.bytes() +
+           size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const

@@ -23,37 +23,36 @@ void ImageBoxes::set(std::size_t face, int chart, const Box& box)
                                                                                           rounded(box.max)};
 }
 
-ImageBoxes::ImageBox ImageBoxes::bounds(int chart) const
-{
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    ImageBox all{glm::vec3(infinity), glm::vec3(-infinity)};
-    for (std::size_t i = static_cast<std::size_t>(chart); i < boxes_.size(); i += static_cast<std::size_t>(charts_)) {
-        all.min = glm::vec3(std::min(all.min.x, boxes_[i].min.x), std::min(all.min.y, boxes_[i].min.y),
-                            std::min(all.min.z, boxes_[i].min.z));
-        all.max = glm::vec3(std::max(all.max.x, boxes_[i].max.x), std::max(all.max.y, boxes_[i].max.y),
-                            std::max(all.max.z, boxes_[i].max.z));
-    }
-    return all;
-}
-
 void PendingFaces::reset(const ImageBoxes& boxes, std::size_t faces)
 {
     boxes_ = &boxes;
     grids_.assign(static_cast<std::size_t>(boxes.chart_count()), {});
     std::size_t heads = 0;
     for (int chart = 0; chart < boxes.chart_count(); ++chart) {
-        const ImageBoxes::ImageBox bounds = boxes.bounds(chart);
+        glm::dvec2 min(std::numeric_limits<double>::infinity()), max = -min, sizes(0);
+        double count = 0;
+        for (std::size_t face = 0; face < faces; ++face) {
+            if (!boxes.present(face, chart))
+                continue;
+            const ImageBoxes::ImageBox& box = boxes.box(face, chart);
+            const glm::dvec2 low(box.min), high(box.max);
+            min = {std::min(min.x, low.x), std::min(min.y, low.y)};
+            max = {std::max(max.x, high.x), std::max(max.y, high.y)};
+            sizes += high - low;
+            ++count;
+        }
         Grid& grid = grids_[static_cast<std::size_t>(chart)];
         grid.first_head = heads;
-        const float width = bounds.max.x - bounds.min.x, height = bounds.max.y - bounds.min.y;
-        if (width > 0 && height > 0 && std::isfinite(width) && std::isfinite(height)) {
-            // Squares, about as many as faces.
-            const float squares = static_cast<float>(std::max<std::size_t>(faces, 1));
-            const auto count = [](float n) { return static_cast<std::uint32_t>(std::clamp(n, 1.0f, 2048.0f)); };
-            grid.columns = count(std::sqrt(squares * width / height));
-            grid.rows = count(std::sqrt(squares * height / width));
-            grid.origin = {bounds.min.x, bounds.min.y};
-            grid.per_unit = {static_cast<float>(grid.columns) / width, static_cast<float>(grid.rows) / height};
+        const glm::dvec2 size = max - min;
+        if (count > 0 && size.x > 0 && size.y > 0) {
+            // Squares as large as a face is on average.
+            const auto squares = [&](double extent, double of_faces) {
+                return static_cast<std::uint32_t>(std::clamp(extent * count / of_faces, 1.0, std::sqrt(4 * count + 1)));
+            };
+            grid.columns = squares(size.x, sizes.x);
+            grid.rows = squares(size.y, sizes.y);
+            grid.origin = glm::vec2(min);
+            grid.per_unit = glm::vec2(glm::dvec2(grid.columns, grid.rows) / size);
         }
         heads += 1 + std::size_t{grid.columns} * grid.rows;
     }

@@ -33,8 +33,6 @@ public:
         return boxes_[face * static_cast<std::size_t>(charts_) + static_cast<std::size_t>(chart)];
     }
     bool present(std::size_t face, int chart) const { return box(face, chart).min.x <= box(face, chart).max.x; }
-    /// Around all boxes of a chart.
-    ImageBox bounds(int chart) const;
     std::size_t bytes() const { return boxes_.capacity() * sizeof(ImageBox); }
 
 private:
@@ -50,8 +48,8 @@ public:
     void reset(const ImageBoxes& boxes, std::size_t faces);
     void add(std::uint32_t face);
 
-    /// Calls visit(pending face) once for each that face `face` may cover: their boxes meet, and not all of the pending
-    /// face is nearer. Drops those of which is_listed(pending face).
+    /// Calls visit(pending face) once for each that face `face` may cover, until it returns false: their boxes meet,
+    /// and not all of the pending face is nearer. Drops those of which is_listed(pending face).
     template <class IsListed, class Visit>
     void search(std::uint32_t face, IsListed&& is_listed, Visit&& visit);
 
@@ -111,9 +109,10 @@ void PendingFaces::search(std::uint32_t face, IsListed&& is_listed, Visit&& visi
             continue;
         const ImageBoxes::ImageBox& box = boxes_->box(face, chart);
         const Grid& grid = grids_[static_cast<std::size_t>(chart)];
+        bool go_on = true;
         const auto look_through = [&](std::size_t head) {
             std::uint32_t* at = &heads_[head];
-            while (*at != none) {
+            while (go_on && *at != none) {
                 Link& link = links_[*at];
                 if (is_listed(link.face)) {
                     *at = link.next;
@@ -125,11 +124,13 @@ void PendingFaces::search(std::uint32_t face, IsListed&& is_listed, Visit&& visi
                     other.max.y < box.min.y || box.max.y < other.min.y || other.max.z < box.min.z)
                     continue;
                 stamps_[link.face] = search_;
-                visit(link.face);
+                go_on = visit(link.face);
             }
         };
         look_through(grid.first_head);
         each_square(grid, box, look_through);
+        if (!go_on)
+            return;
     }
 }
 
