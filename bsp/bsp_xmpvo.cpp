@@ -128,16 +128,23 @@ private:
             sorter_.queue_.resize(size + size / 8);
     }
 
+    bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
+
     // The walk has come to some faces that are in one plane or in no order: first what may be covered, then what may
     // cover.
     void pass(std::span<const std::uint32_t> group)
     {
-        for (std::uint32_t face : group)
-            if ((sorter_.roles_[face] & entry_role) != 0 &&
-                sorter_.groups_left_[face] == sorter_.tree_.group_counts()[face] && !is_listed(face)) {
-                sorter_.pending_.add(face);
-                ++sorter_.pending_count_;
-            }
+        const auto listed = [&](std::uint32_t boundary_cell) { return is_listed(boundary_cell); };
+        for (std::uint32_t face : group) {
+            if ((sorter_.roles_[face] & entry_role) == 0 ||
+                sorter_.groups_left_[face] != sorter_.tree_.group_counts()[face])
+                continue;
+            const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_face(face);
+            if (is_listed(boundary_cell))
+                continue;
+            sorter_.pending_.add(face, boundary_cell, listed);
+            ++sorter_.pending_count_;
+        }
         for (std::uint32_t face : group)
             if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0) {
                 State& state = state_[owner(face)];
@@ -146,8 +153,6 @@ private:
                 ready_ += ready(state);
             }
     }
-
-    bool is_listed(std::uint32_t face) const { return sorter_.is_listed_[sorter_.boundary_cells_.of_face(face)] != 0; }
 
     // Lists the cells that are ready, and those that become so.
     void list()
@@ -203,7 +208,7 @@ private:
         for (std::uint32_t face = begin; face < end; ++face) {
             if ((sorter_.roles_[face] & exit_role) == 0)
                 continue;
-            const auto listed = [&](std::uint32_t entry) { return is_listed(entry); };
+            const auto listed = [&](std::uint32_t other) { return is_listed(other); };
             std::uint32_t covered = none;
             sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
                 if (sorter_.obstructs(face, entry, eye_))

@@ -62,24 +62,6 @@ void PendingFaces::reset(const ImageBoxes& boxes, std::size_t faces)
     search_ = 0;
 }
 
-void PendingFaces::add(std::uint32_t face)
-{
-    for (int chart = 0; chart < boxes_->chart_count(); ++chart) {
-        if (!boxes_->present(face, chart))
-            continue;
-        const ImageBoxes::ImageBox& box = boxes_->box(face, chart);
-        const Grid& grid = grids_[static_cast<std::size_t>(chart)];
-        const auto put = [&](std::size_t head) {
-            links_.push_back({face, heads_[head]});
-            heads_[head] = static_cast<std::uint32_t>(links_.size() - 1);
-        };
-        if (square_count(grid, box) > most_squares)
-            put(grid.first_head);
-        else
-            each_square(grid, box, put);
-    }
-}
-
 std::size_t PendingFaces::bytes() const
 {
     return grids_.capacity() * sizeof(Grid) + (heads_.capacity() + stamps_.capacity()) * sizeof(std::uint32_t) +

@@ -46,10 +46,13 @@ class PendingFaces {
 public:
     /// None, with grids for about `faces` of them. `boxes` must live as long as these are asked for.
     void reset(const ImageBoxes& boxes, std::size_t faces);
-    void add(std::uint32_t face);
+    /// Adds a face of boundary cell `cell`. Drops what it meets of cells for which is_listed(boundary cell).
+    template <class IsListed>
+    void add(std::uint32_t face, std::uint32_t cell, IsListed&& is_listed);
 
     /// Calls visit(pending face) once for each that face `face` may cover, until it returns false: their boxes meet,
-    /// and not all of the pending face is nearer. Drops those of which is_listed(pending face).
+    /// and not all of the pending face is nearer. Drops those of cells for which is_listed(boundary
+    /// cell).
     template <class IsListed, class Visit>
     void search(std::uint32_t face, IsListed&& is_listed, Visit&& visit);
 
@@ -60,8 +63,12 @@ private:
     // A face over more squares of the grid than this is kept apart, in a list that all searches go through.
     static constexpr std::uint32_t most_squares = 64;
 
+    // Of a list in which faces stand by their farthest points, farthest first.
     struct Link {
+        glm::vec2 min, max;
+        float farthest;
         std::uint32_t face;
+        std::uint32_t cell;
         std::uint32_t next;
     };
     struct Grid {
@@ -100,6 +107,37 @@ private:
     std::uint32_t search_ = 0;
 };
 
+template <class IsListed>
+void PendingFaces::add(std::uint32_t face, std::uint32_t cell, IsListed&& is_listed)
+{
+    for (int chart = 0; chart < boxes_->chart_count(); ++chart) {
+        if (!boxes_->present(face, chart))
+            continue;
+        const ImageBoxes::ImageBox& box = boxes_->box(face, chart);
+        const Grid& grid = grids_[static_cast<std::size_t>(chart)];
+        const auto put = [&](std::size_t head) {
+            std::uint32_t* at = &heads_[head];
+            while (*at != none) {
+                Link& link = links_[*at];
+                if (is_listed(link.cell)) {
+                    *at = link.next;
+                    continue;
+                }
+                if (link.farthest <= box.max.z)
+                    break;
+                at = &link.next;
+            }
+            const std::uint32_t next = *at;
+            *at = static_cast<std::uint32_t>(links_.size());
+            links_.push_back({glm::vec2(box.min), glm::vec2(box.max), box.max.z, face, cell, next});
+        };
+        if (square_count(grid, box) > most_squares)
+            put(grid.first_head);
+        else
+            each_square(grid, box, put);
+    }
+}
+
 template <class IsListed, class Visit>
 void PendingFaces::search(std::uint32_t face, IsListed&& is_listed, Visit&& visit)
 {
@@ -114,14 +152,15 @@ void PendingFaces::search(std::uint32_t face, IsListed&& is_listed, Visit&& visi
             std::uint32_t* at = &heads_[head];
             while (go_on && *at != none) {
                 Link& link = links_[*at];
-                if (is_listed(link.face)) {
+                if (link.farthest < box.min.z)
+                    return;
+                if (is_listed(link.cell)) {
                     *at = link.next;
                     continue;
                 }
                 at = &link.next;
-                const ImageBoxes::ImageBox& other = boxes_->box(link.face, chart);
-                if (stamps_[link.face] == search_ || other.max.x < box.min.x || box.max.x < other.min.x ||
-                    other.max.y < box.min.y || box.max.y < other.min.y || other.max.z < box.min.z)
+                if (link.max.x < box.min.x || box.max.x < link.min.x || link.max.y < box.min.y ||
+                    box.max.y < link.min.y || stamps_[link.face] == search_)
                     continue;
                 stamps_[link.face] = search_;
                 go_on = visit(link.face);
