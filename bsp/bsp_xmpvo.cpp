@@ -28,26 +28,24 @@ constexpr auto bits_set = [] {
     return table;
 }();
 
-// The distinct points of a face of the tree.
-struct FacePoints {
-    std::array<glm::dvec3, max_face_vertices> points;
-    std::size_t count = 0;
-
-    std::span<const glm::dvec3> span() const { return {points.data(), count}; }
-};
-
-FacePoints points_of(const Scene& scene, const CellFace& face)
+// The distinct points of a face with area, as face_overlap wants them: the first three span its plane. `turn` is left
+// to the eye.
+void set_points(const Scene& scene, const CellFace& face, SeenFace& seen)
 {
-    const Mesh& mesh = scene.mesh();
-    FacePoints result;
-    const auto add = [&](PointId v) { result.points[result.count++] = mesh.points[v]; };
+    const auto add = [&](PointId v) {
+        const glm::dvec3& point = scene.mesh().points[v];
+        const auto end = seen.points.begin() + seen.count;
+        if (std::find(seen.points.begin(), end, point) == end)
+            seen.points[static_cast<std::size_t>(seen.count++)] = point;
+    };
     if (scene.is_surface())
-        for (PointId v : mesh.cell(face.cell))
+        for (PointId v : scene.mesh().cell(face.cell))
             add(v);
     else
-        for (PointId v : face_loop(mesh, face.cell, static_cast<int>(face.face)))
+        for (PointId v : face_loop(scene.mesh(), face.cell, static_cast<int>(face.face)))
             add(v);
-    return result;
+    while (collinear(seen.points[0], seen.points[1], seen.points[2]))
+        std::rotate(seen.points.begin(), seen.points.begin() + 1, seen.points.begin() + seen.count);
 }
 
 } // namespace
@@ -265,6 +263,11 @@ BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
     if (!scene.is_surface())
         scene.face_planes();
     scene.overlapping_cells();
+    seen_.resize(tree_.faces().size());
+    oneapi::tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t i) {
+        if (tree_.group_counts()[i] > 0)
+            set_points(scene, tree_.faces()[i], seen_[i]);
+    });
 }
 
 void BspXmpvo::look_at_faces(const glm::dvec4& eye)
@@ -276,40 +279,27 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     is_listed_.assign(boundary_cells_.count(), 0);
     waiting_head_.assign(boundary_cells_.count(), none);
     waiting_.clear();
-    seen_.resize(faces.size());
-    is_seen_.assign(faces.size(), 0);
     boxes_.reset(faces.size(), charts.count());
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, faces.size(), 1024), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
             roles_[i] = 0;
             if (groups_left_[i] == 0)
                 continue;
-            const FacePoints points = points_of(scene_, faces[i]);
-            if (scene_.is_surface()) {
-                seen_[i] = seen_face(points.span(), eye);
-                is_seen_[i] = 1;
-                roles_[i] = seen_[i].turn == Sign::zero ? 0 : exit_role | entry_role;
-            } else {
+            SeenFace& seen = seen_[i];
+            seen.turn = side_of_plane(seen.points[0], seen.points[1], seen.points[2], eye);
+            if (scene_.is_surface())
+                roles_[i] = seen.turn == Sign::zero ? 0 : exit_role | entry_role;
+            else
                 roles_[i] = (signs_.exit(faces[i].cell) >> faces[i].face & 1u) != 0    ? exit_role
                             : (signs_.entry(faces[i].cell) >> faces[i].face & 1u) != 0 ? entry_role
                                                                                        : 0;
-            }
             for (int chart = 0; roles_[i] != 0 && chart < charts.count(); ++chart)
-                if (const auto box = charts.box(points.span(), chart))
+                if (const auto box = charts.box(seen.vertices(), chart))
                     boxes_.set(i, chart, *box);
         }
     });
     pending_.reset(boxes_, faces.size());
     pending_count_ = test_count_ = relation_count_ = 0;
-}
-
-const SeenFace& BspXmpvo::seen(std::uint32_t face, const glm::dvec4& eye)
-{
-    if (is_seen_[face] == 0) {
-        seen_[face] = seen_face(points_of(scene_, tree_.faces()[face]).span(), eye);
-        is_seen_[face] = 1;
-    }
-    return seen_[face];
 }
 
 bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
@@ -323,7 +313,7 @@ bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye
             return false; // the face between them carries the relation
     }
     ++test_count_;
-    const Overlap overlap = face_overlap(seen(f, eye), seen(g, eye), eye);
+    const Overlap overlap = face_overlap(seen_[f], seen_[g], eye);
     if (overlap != Overlap::nearer && (overlap != Overlap::coincident || scene_.is_surface()))
         return false;
     const auto& overlapping = scene_.overlapping_cells();
@@ -373,8 +363,8 @@ std::size_t BspXmpvo::bytes() const
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
            size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + size_of(seen_) +
-           size_of(is_seen_) + size_of(waiting_) + boxes_.bytes() + pending_.bytes() +
-           size_of(all_relations_.relations) + topological_sort_.bytes();
+           size_of(waiting_) + boxes_.bytes() + pending_.bytes() + size_of(all_relations_.relations) +
+           topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const

@@ -77,7 +77,6 @@ private:
 
     // What the eye makes of each of the tree's faces.
     void look_at_faces(const glm::dvec4& eye);
-    const SeenFace& seen(std::uint32_t face, const glm::dvec4& eye);
     // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
     bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     template <int row, class State>
@@ -100,8 +99,7 @@ private:
     // A face of the tree each.
     std::vector<std::uint8_t> roles_;        // an exit face, an entry face, or both
     std::vector<std::uint32_t> groups_left_; // to which the walk has not come
-    std::vector<SeenFace> seen_;             // turn and points, once they are needed
-    std::vector<std::uint8_t> is_seen_;
+    std::vector<SeenFace> seen_;             // of which each eye sets `turn`
 
     // A boundary cell each.
     std::vector<std::uint8_t> is_listed_;
