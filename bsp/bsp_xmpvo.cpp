@@ -312,6 +312,8 @@ bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye
         if (std::find(row.begin(), row.end(), back) != row.end())
             return false; // the face between them carries the relation
     }
+    if (surely_not_nearer(seen_[f], seen_[g]))
+        return false;
     ++test_count_;
     const Overlap overlap = face_overlap(seen_[f], seen_[g], eye);
     if (overlap != Overlap::nearer && (overlap != Overlap::coincident || scene_.is_surface()))

@@ -115,12 +115,6 @@ SightPlane edge_plane(const Viewpoint& from, const SeenFace& face, int edge)
     return {from, corner(face, edge), corner(face, edge + 1)};
 }
 
-// The side of the plane of sight through an edge of `face`, in which a common corner of two faces lies for sure.
-Sign side_of_edge(const SightPlane& plane, const SeenFace& face, int edge, const glm::dvec3& x)
-{
-    return x == corner(face, edge) || x == corner(face, edge + 1) ? Sign::zero : plane.side(x);
-}
-
 // Whether the plane of sight through an edge of `face` has all of `other` weakly on its outer side.
 bool edge_separates(const Viewpoint& from, const SeenFace& face, const SeenFace& other)
 {
@@ -128,7 +122,7 @@ bool edge_separates(const Viewpoint& from, const SeenFace& face, const SeenFace&
         const SightPlane plane = edge_plane(from, face, edge);
         bool outside = true;
         for (int i = 0; outside && i < other.count; ++i)
-            outside = side_of_edge(plane, face, edge, other.points[at(i)]) != face.turn;
+            outside = plane.side(other.points[at(i)]) != face.turn;
         if (outside)
             return true;
     }
@@ -208,6 +202,33 @@ PlaneSides plane_sides(const SeenFace& plane, const SeenFace& points)
     return sides;
 }
 
+// Whether all corners of `points` lie for sure on the side of a face's plane that `side` says, some strictly: `positive`
+// is the eye's. Corners in common lie in the plane.
+bool all_surely_on(Sign side, const SeenFace& plane, const SeenFace& points)
+{
+    const glm::dvec3 &a = plane.points[0], p = plane.points[1] - a, q = plane.points[2] - a;
+    const double x1 = p.y * q.z, x2 = p.z * q.y;
+    const double y1 = p.z * q.x, y2 = p.x * q.z;
+    const double z1 = p.x * q.y, z2 = p.y * q.x;
+    const glm::dvec3 normal(x1 - x2, y1 - y2, z1 - z2);
+    const glm::dvec3 permanent(std::abs(x1) + std::abs(x2), std::abs(y1) + std::abs(y2), std::abs(z1) + std::abs(z2));
+    const Sign wanted = side * plane.turn;
+    bool some = false;
+    for (int i = 0; i < points.count; ++i) {
+        const glm::dvec3& x = points.points[at(i)];
+        const Estimate height = estimate(normal, permanent, x - a);
+        if (height.certain()) {
+            if (height.sign() != wanted)
+                return false;
+            some = true;
+        } else if (std::find(plane.points.data(), plane.points.data() + plane.count, x) ==
+                   plane.points.data() + plane.count) {
+            return false;
+        }
+    }
+    return some;
+}
+
 // Of every corner of one face at every edge of another: positive inside, negative outside the other's cone.
 struct ConeSides {
     std::array<std::array<Sign, 4>, 4> of; // [edge][corner]
@@ -217,7 +238,7 @@ struct ConeSides {
         for (int e = 0; e < edges.count; ++e) {
             const SightPlane plane = edge_plane(from, edges, e);
             for (int i = 0; i < corners.count; ++i)
-                of[at(e)][at(i)] = side_of_edge(plane, edges, e, corners.points[at(i)]) * edges.turn;
+                of[at(e)][at(i)] = plane.side(corners.points[at(i)]) * edges.turn;
         }
     }
 
@@ -346,6 +367,11 @@ Overlap face_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye
     if (!g_at_f.some_far)
         return Overlap::farther;
     return compare_at_extreme_rays(from, f, g, f_at_g, g_at_f);
+}
+
+bool surely_not_nearer(const SeenFace& f, const SeenFace& g)
+{
+    return all_surely_on(Sign::positive, f, g) || all_surely_on(Sign::negative, g, f);
 }
 
 Overlap face_overlap(std::span<const glm::dvec3> f, std::span<const glm::dvec3> g, const glm::dvec4& eye)

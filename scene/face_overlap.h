@@ -35,6 +35,10 @@ SeenFace seen_face(std::span<const glm::dvec3> face, const glm::dvec4& eye);
 /// area and overlaps nothing.
 Overlap face_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye);
 
+/// A quick test that is sometimes enough: whether G lies in front of F's plane, or F behind G's, for sure. Then F is
+/// nearer than G nowhere, and the two neither cross nor coincide.
+bool surely_not_nearer(const SeenFace& f, const SeenFace& g);
+
 /// The same for one pair.
 Overlap face_overlap(std::span<const glm::dvec3> f, std::span<const glm::dvec3> g, const glm::dvec4& eye);
 

@@ -197,6 +197,8 @@ private:
         const CellId front = f.owner.cell, back = g.owner.cell;
         if (front == back || (adjacency_ != nullptr && share_face(*adjacency_, front, back)))
             return;
+        if (surely_not_nearer(f.seen, g.seen))
+            return;
         ++found.candidates;
         const Overlap overlap = face_overlap(f.seen, g.seen, eye_);
         if (overlap == Overlap::crossing)
