@@ -24,11 +24,12 @@ Mesh gear(std::size_t cells, double twist)
     constexpr double rim = root_radius - bore_radius;
     constexpr double tooth = tip_radius - root_radius;
     constexpr double half_pitch = 0.4; // half way between bore and tip
-    const auto [columns, half_rings, layers] =
-        lattice_size((cells + 3) / 6 / teeth, {half_pitch, 2 * rim + tooth, thickness}, {1, 3, 1});
-    std::size_t tooth_rings = std::max<std::size_t>(1, half_rings / 5);
-    tooth_rings += (half_rings - tooth_rings) % 2;
-    const std::size_t rim_rings = (half_rings - tooth_rings) / 2;
+    const LatticeSize size = lattice_size((cells + 3) / 6 / teeth, {half_pitch, 2 * rim + tooth, thickness}, {1, 3, 1});
+    const std::size_t columns = size[0]; // of a tooth
+    const std::size_t layers = size[2];
+    std::size_t tooth_rings = std::max<std::size_t>(1, size[1] / 5);
+    tooth_rings += (size[1] - tooth_rings) % 2;
+    const std::size_t rim_rings = (size[1] - tooth_rings) / 2;
     const std::size_t around = 2 * teeth * columns;
 
     const auto radius = [&](std::size_t ring) {
