@@ -47,18 +47,20 @@ int run(const SceneSource& source)
     else
         fmt::print("  scalar          none\n");
     const Traits& traits = scene.traits();
-    fmt::print("  boundary        {} faces in {} components\n", scene.boundary().faces.size(),
-               scene.boundary().component_count);
-    fmt::print("  convex          {}\n", yes_or_no(traits.convex));
-    fmt::print("  Delaunay        {}\n", yes_or_no(traits.delaunay));
-    fmt::print("  face to face    {}\n", yes_or_no(traits.face_to_face));
-    fmt::print("  planar faces    {}\n", yes_or_no(traits.planar_faces));
+    fmt::print("  boundary        {} {} in {} components\n", scene.boundary().faces.size(),
+               scene.is_surface() ? "edges" : "faces", scene.boundary().component_count);
     fmt::print("  flat cells      {}\n", traits.flat_cells);
-    fmt::print("  inverted cells  {}\n", traits.inverted_cells);
-    fmt::print("  folded faces    {}\n", traits.folded_faces);
+    if (!scene.is_surface()) {
+        fmt::print("  inverted cells  {}\n", traits.inverted_cells);
+        fmt::print("  folded faces    {}\n", traits.folded_faces);
+        fmt::print("  convex          {}\n", yes_or_no(traits.convex));
+        fmt::print("  Delaunay        {}\n", yes_or_no(traits.delaunay));
+        fmt::print("  face to face    {}\n", yes_or_no(traits.face_to_face));
+        fmt::print("  planar faces    {}\n", yes_or_no(traits.planar_faces));
+    }
     const AutoChoice choice = choose_sorter(scene);
     fmt::print("  auto            {}: {}\n", choice.name, choice.reason);
-    if (!scene.is_surface())
+    if (traits.planar_faces)
         scene.face_planes();
     for (const StructureRecord& record : scene.derived())
         fmt::print("  {:<15} {:.3f} s, {:.1f} MiB\n", name(record.structure), record.seconds,

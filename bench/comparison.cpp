@@ -152,6 +152,7 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
     progress(fmt::format("{}: traits", source.name));
     const OrderChecker checker(scene);
     description.cells = scene.cell_count();
+    description.surface = scene.is_surface();
     description.boundary_faces = scene.boundary().faces.size();
     description.convex = scene.traits().convex;
     description.delaunay = scene.traits().delaunay;

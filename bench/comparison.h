@@ -39,6 +39,7 @@ struct SceneResult {
     bool delaunay;
     std::size_t overlapping_pairs; ///< of cells; in no order, and in no count of relations
     std::vector<std::string> notes;
+    bool surface = false; ///< of triangles, whose boundary faces are edges
 };
 
 /// One sorter on one view of one scene. Image errors are none until frames are drawn.

@@ -1,5 +1,6 @@
 #include "bench/delaunay.h"
 
+#include "bench/unused_points.h"
 #include "scene/box.h"
 #include "scene/morton_curve.h"
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -98,24 +98,6 @@ std::vector<Tetrahedron> sorted(const std::vector<Tetrahedron>& cells, std::size
     return result;
 }
 
-// Leaves of the points those that a cell uses.
-void drop_unused_points(std::vector<glm::dvec3>& points, std::vector<std::uint32_t>& vertices)
-{
-    constexpr PointId unused = std::numeric_limits<PointId>::max();
-    std::vector<PointId> number(points.size(), unused);
-    for (const PointId vertex : vertices)
-        number[vertex] = 0;
-    PointId used = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (number[i] != unused) {
-            points[used] = points[i];
-            number[i] = used++;
-        }
-    points.resize(used);
-    for (PointId& vertex : vertices)
-        vertex = number[vertex];
-}
-
 } // namespace
 
 Mesh delaunay_mesh(std::vector<glm::dvec3> points)
@@ -127,8 +109,8 @@ Mesh delaunay_mesh(std::vector<glm::dvec3> points)
     mesh.vertices.reserve(4 * cells.size());
     for (const Tetrahedron& cell : cells)
         mesh.vertices.insert(mesh.vertices.end(), cell.begin(), cell.end());
-    drop_unused_points(points, mesh.vertices);
     mesh.points = std::move(points);
+    drop_unused_points(mesh);
     name_tetrahedra(mesh);
     return mesh;
 }
@@ -145,7 +127,7 @@ void keep_cells(Mesh& mesh, const std::function<bool(const Corners&)>& keep)
         kept += 4;
     }
     mesh.vertices.resize(kept);
-    drop_unused_points(mesh.points, mesh.vertices);
+    drop_unused_points(mesh);
     name_tetrahedra(mesh);
 }
 

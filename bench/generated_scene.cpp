@@ -34,6 +34,13 @@ constexpr std::array families{
     Family{{"grid", "equal cubes in rows: every power key ties", 105'456}, 6, grid_scene},
     Family{{"fin", "curvilinear grid around a blunt fin on a plate, hexahedra", 224'874}, 24, fin_scene},
     Family{{"post", "O-grid around a cylinder, hexahedra", 100'000}, 18, post_scene},
+    Family{{"gear", "wheel with teeth and a bore, hexahedra", 100'000}, 288, gear_scene},
+    Family{{"gear-helical", "the same with teeth that wind around the axis: hexahedra with faces that are not planar",
+            100'000},
+           900,
+           helical_gear_scene},
+    Family{{"reactor", "block with many straight channels, hexahedra", 100'000}, 192, reactor_scene},
+    Family{{"tori", "two linked rings that do not touch, hexahedra", 100'000}, 96, tori_scene},
     Family{{"pinwheel", "three rings of cells of which one at least is a cycle from every direction", 96},
            48,
            pinwheel_scene},
@@ -42,6 +49,10 @@ constexpr std::array families{
     Family{{"offset", "delaunay far from the origin", 100'000}, 100, offset_scene},
     Family{{"contact", "two blocks that touch in a plane without sharing faces", 100'000}, 200, contact_scene},
     Family{{"cavity", "a shell with an island inside, from a delaunay scene", 100'000}, 2'000, cavity_scene},
+    Family{{"sphere", "triangles: one sphere", 20'000}, 20, sphere_scene},
+    Family{{"shells", "triangles: five spheres, one within the other", 20'000}, 300, shells_scene},
+    Family{{"knot", "triangles: a tube around a trefoil knot", 20'000}, 300, knot_scene},
+    Family{{"cards", "triangles: rectangles that pass through each other", 20'000}, 4, cards_scene},
 };
 
 const Family& family_named(std::string_view name)

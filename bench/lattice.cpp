@@ -46,13 +46,22 @@ LatticeSize lattice_size(std::size_t count, const glm::dvec3& proportions, const
 
 void add_hexahedra(Mesh& mesh, const LatticeSize& points, bool closed)
 {
+    add_hexahedra(mesh, points, closed, [](const LatticeSize&) { return true; });
+}
+
+void add_hexahedra(Mesh& mesh, const LatticeSize& points, bool closed,
+                   const std::function<bool(const LatticeSize& corner)>& keep)
+{
+    const std::size_t first = mesh.points.size() - points[0] * points[1] * points[2];
     const std::size_t rows = closed ? points[1] : points[1] - 1;
     const auto number = [&](std::size_t i, std::size_t j, std::size_t k) {
-        return static_cast<PointId>(i + points[0] * (j % points[1] + points[1] * k));
+        return static_cast<PointId>(first + i + points[0] * (j % points[1] + points[1] * k));
     };
     for (std::size_t k = 0; k + 1 < points[2]; ++k)
         for (std::size_t j = 0; j < rows; ++j)
             for (std::size_t i = 0; i + 1 < points[0]; ++i) {
+                if (!keep({i, j, k}))
+                    continue;
                 const std::array<PointId, 8> vertices{
                     number(i, j, k),     number(i + 1, j, k),     number(i + 1, j + 1, k),     number(i, j + 1, k),
                     number(i, j, k + 1), number(i + 1, j, k + 1), number(i + 1, j + 1, k + 1), number(i, j + 1, k + 1)};

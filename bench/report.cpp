@@ -77,7 +77,7 @@ const SceneResult& scene_of(const Comparison& comparison, const std::string& nam
 
 std::string traits_of(const SceneResult& scene)
 {
-    std::string text = scene.convex ? "convex" : "not convex";
+    std::string text = scene.surface ? "surface" : scene.convex ? "convex" : "not convex";
     if (scene.delaunay)
         text += ", Delaunay";
     if (scene.overlapping_pairs > 0)
@@ -146,8 +146,9 @@ std::string table(const Comparison& comparison, bool colour, bool statistics)
         const SceneResult& of_row = scene_of(comparison, row.first->scene);
         if (&of_row != scene) {
             scene = &of_row;
-            text += fmt::format("\n{}: {} cells, {} boundary faces, {}\n", scene->name, with_commas(scene->cells),
-                                with_commas(scene->boundary_faces), traits_of(*scene));
+            text +=
+                fmt::format("\n{}: {} cells, {} boundary {}, {}\n", scene->name, with_commas(scene->cells),
+                            with_commas(scene->boundary_faces), scene->surface ? "edges" : "faces", traits_of(*scene));
             for (const std::string& note : scene->notes)
                 text += fmt::format("  ({})\n", note);
         }
@@ -172,6 +173,7 @@ std::string json(const Comparison& comparison, const Machine& machine)
     for (const SceneResult& scene : comparison.scenes)
         document["scenes"].push_back({{"name", scene.name},
                                       {"cells", scene.cells},
+                                      {"surface", scene.surface},
                                       {"boundary_faces", scene.boundary_faces},
                                       {"convex", scene.convex},
                                       {"delaunay", scene.delaunay},

@@ -7,8 +7,8 @@
 
 namespace visorder {
 
-// The makers of the generated scenes. Each takes the number of tetrahedra asked for, not less than its family's
-// minimum, and makes about as many, or the hexahedra that become about as many, six each. Scalars come later.
+// The makers of the generated scenes. Each takes the number of tetrahedra (or triangles) asked for, not less than its
+// family's minimum, and makes about as many, or the hexahedra that become about as many, six each. Scalars come later.
 
 /// The Delaunay tetrahedralisation of random points in the unit cube. Convex, Delaunay, face to face, acyclic.
 Mesh delaunay_scene(std::size_t cells, std::uint64_t seed);
@@ -54,9 +54,49 @@ Mesh fin_scene(std::size_t cells, std::uint64_t seed);
 /// when subdivided at lowest vertices.
 Mesh post_scene(std::size_t cells, std::uint64_t seed);
 
+/// A gear wheel around the z axis: a bore, a rim of rings of cells, and sixteen teeth with gaps as wide between them.
+/// Hexahedra with exactly planar faces. Not convex; face to face; acyclic also when subdivided at lowest vertices, for
+/// the reason that `post` is.
+Mesh gear_scene(std::size_t cells, std::uint64_t seed);
+
+/// `gear`, wound around the axis by half a tooth's pitch from one side of the wheel to the other. Hexahedra whose faces
+/// are not planar, and so to be subdivided: the tetrahedra meet face to face and do not overlap. Not convex. The faces
+/// between the columns of cells all lean the same way, so that from eyes near the axis rings of hexahedra are cycles.
+/// Rings of tetrahedra are not, since the lowest vertices that they are cut at change sides where the numbers around
+/// the axis begin again; no cycle of tetrahedra is known.
+Mesh helical_gear_scene(std::size_t cells, std::uint64_t seed);
+
+/// A block with a square array of straight square channels along z, ever more of them in larger scenes; walls and
+/// channels are two cells wide. A ray across leaves and comes back once a channel. Coordinates are whole numbers.
+/// Hexahedra with exactly planar faces. Not convex; face to face; acyclic also when subdivided at lowest vertices.
+Mesh reactor_scene(std::size_t cells, std::uint64_t seed);
+
+/// Two rings with square sections, each through the middle of the other's hole, without touching: the first around the
+/// z axis, the second around a parallel to the y axis. Hexahedra with exactly planar faces. Not convex; face to face;
+/// acyclic also when subdivided at lowest vertices.
+Mesh tori_scene(std::size_t cells, std::uint64_t seed);
+
 /// Three rings of cells, each a cycle that faces show: from every direction, hence from every eye far away, the cells
 /// of at least one ring obstruct each other all the way around. Face to face within each ring; no cells overlap.
 /// Neither convex nor acyclic.
 Mesh pinwheel_scene(std::size_t cells, std::uint64_t seed);
+
+// Surface scenes. Triangles of closed surfaces are counterclockwise from outside.
+
+/// A unit sphere: an icosahedron whose faces are cut into equally many triangles each and carried outwards. Closed;
+/// acyclic.
+Mesh sphere_scene(std::size_t cells, std::uint64_t seed);
+
+/// Five such spheres around one middle with equal distances, triangles about equally large. Closed; the surfaces do not
+/// meet; acyclic.
+Mesh shells_scene(std::size_t cells, std::uint64_t seed);
+
+/// A tube around a trefoil knot. Closed; it does not pass through itself.
+Mesh knot_scene(std::size_t cells, std::uint64_t seed);
+
+/// Rectangles of two triangles each, all of one size, at random places in the unit cube and turned at random. Each
+/// passes through two others on average, however many there are; such triangles have no order. The others, too, may
+/// obstruct each other in cycles.
+Mesh cards_scene(std::size_t cells, std::uint64_t seed);
 
 } // namespace visorder

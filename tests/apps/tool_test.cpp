@@ -115,6 +115,32 @@ TEST(Tool, InspectsAndLists)
     EXPECT_NE(listed.output.find("Williams 1992"), std::string::npos) << listed.output;
 }
 
+TEST(Tool, TakesSurfaceScenes)
+{
+    const TemporaryFolder folder;
+    const std::string order = (folder / "order.txt").string();
+    const Outcome compared = run("compare --scene shells:500,cards:200,sphere:100,knot:300 --views 2 --hard");
+    EXPECT_EQ(compared.code, 0) << compared.output;
+    for (const char* part : {"0 boundary edges, surface\n", "pairs of cells overlap", "power            skipped"})
+        EXPECT_NE(compared.output.find(part), std::string::npos) << part << "\n" << compared.output;
+    const Outcome sorted = run("sort --scene cards:200 --eye 3,2,1 -o " + order);
+    EXPECT_EQ(sorted.code, 0) << sorted.output;
+    const Outcome checked = run("check --scene cards:200 " + order + " --eye 3,2,1");
+    EXPECT_EQ(checked.code, 1) << checked.output;
+    for (const char* part : {"is painted before it", "overlap in space"})
+        EXPECT_NE(checked.output.find(part), std::string::npos) << part << "\n" << checked.output;
+    const Outcome inspected = run("inspect --scene cards:200");
+    EXPECT_EQ(inspected.code, 0) << inspected.output;
+    EXPECT_NE(inspected.output.find("400 edges in 100 components"), std::string::npos) << inspected.output;
+}
+
+TEST(Tool, InspectsHexahedraWithFacesThatAreNotPlanar)
+{
+    const Outcome inspected = run("inspect --scene gear-helical:2000 --whole");
+    EXPECT_EQ(inspected.code, 0) << inspected.output;
+    EXPECT_NE(inspected.output.find("planar faces    no"), std::string::npos) << inspected.output;
+}
+
 TEST(Tool, AnswersBadInputWithOneLineAndCode2)
 {
     const TemporaryFolder folder;
