@@ -112,39 +112,22 @@ bool Newell::next_obscured(Search& search, CellId& obscured)
         const WindowLists::Range windows = lists_.windows_of(front);
         while (true) {
             const std::uint32_t number = lists_.list_of(windows, search.column, search.row);
-            const std::span<const Extent> list = lists_.list(number);
+            const std::span<const WindowLists::Listed> list = lists_.list(number);
             std::size_t& first_left = first_left_[number];
             while (first_left < list.size() && number_[list[first_left].cell] == in_order)
                 ++first_left;
             search.position = std::max(search.position, first_left);
-            while (search.position < list.size()) {
-                const Extent& back = list[search.position];
+            while (pass_first_tests(search, front, windows, list)) {
+                const CellId back = list[search.position].cell;
                 ++search.position;
-                const std::uint32_t came = number_[back.cell];
-                if (came == in_order)
+                if (!obscures(search.cell, back))
                     continue;
-                if (back.far < front.near) {
-                    ++count_[depth];
-                    break;
-                }
-                // Of a cell that came to the head after one that is known to be reached, nothing is left to learn.
-                if (came != unseen && came >= lowest_[search.cell])
-                    continue;
-                if (windows_) {
-                    // Two cells meet in several windows; the first of these is theirs.
-                    const WindowLists::Range others = lists_.windows_of(back);
-                    if (search.column != std::max(windows.first_column, others.first_column) ||
-                        search.row != std::max(windows.first_row, others.first_row))
-                        continue;
-                }
-                if (!obscures(front, back))
-                    continue;
-                if (came == unseen) {
-                    obscured = back.cell;
+                if (number_[back] == unseen) {
+                    obscured = back;
                     return true;
                 }
                 ++count_[second_moves];
-                lowest_[search.cell] = came;
+                lowest_[search.cell] = number_[back];
             }
             if (search.column < windows.last_column) {
                 ++search.column;
@@ -160,25 +143,57 @@ bool Newell::next_obscured(Search& search, CellId& obscured)
     return false;
 }
 
-bool Newell::obscures(const Extent& front, const Extent& back)
+// Moves the search on to the next cell of a list that the tests 1 to 3 do not settle; returns false where there is
+// none.
+bool Newell::pass_first_tests(Search& search, const Extent& front, const WindowLists::Range& windows,
+                              std::span<const WindowLists::Listed> list)
 {
-    if (back.right < front.left || front.right < back.left) {
-        ++count_[across];
-        return false;
+    // These tests settle nearly all pairs, in no order that a processor could foresee: so the only branches are those
+    // hardly ever taken.
+    const std::uint32_t* const number = number_.data();
+    const std::uint32_t lowest = lowest_[search.cell];
+    const WindowLists::Listed* const end = list.data() + list.size();
+    const WindowLists::Listed* at = list.data() + search.position;
+    std::size_t across_here = 0, down_here = 0;
+    bool found = false;
+    for (; at != end; ++at) {
+        // Of a cell that is in the order, or came to the head after one that is known to be reached, nothing is left to
+        // learn; and two cells that meet in several windows are a pair in the first of these alone.
+        const bool is_pair = (number[at->cell] < lowest) &
+                             (search.column == std::max(windows.first_column, at->first_column)) &
+                             (search.row == std::max(windows.first_row, at->first_row));
+        if (at->far < front.near) {
+            count_[depth] += is_pair;
+            at = end;
+            break;
+        }
+        const bool is_across = (at->right < front.left) | (front.right < at->left);
+        const bool is_down = (at->top < front.bottom) | (front.top < at->bottom);
+        across_here += is_pair & is_across;
+        down_here += is_pair & !is_across & is_down;
+        if (is_pair & !is_across & !is_down) {
+            found = true;
+            break;
+        }
     }
-    if (back.top < front.bottom || front.top < back.bottom) {
-        ++count_[down];
-        return false;
-    }
-    if (extents_.cones_apart(front.cell, back.cell)) {
+    search.position = static_cast<std::size_t>(at - list.data());
+    count_[across] += across_here;
+    count_[down] += down_here;
+    return found;
+}
+
+// The tests after the first three.
+bool Newell::obscures(CellId front, CellId back)
+{
+    if (extents_.cones_apart(front, back)) {
         ++count_[cones];
         return false;
     }
-    if (extents_.sphere_behind(front.cell, back.cell)) {
+    if (extents_.sphere_behind(front, back)) {
         ++count_[spheres];
         return false;
     }
-    switch (obstruction_.test(front.cell, back.cell)) {
+    switch (obstruction_.test(front, back)) {
     case Settled::by_front_plane:
         ++count_[front_planes];
         return false;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace visorder {
@@ -68,7 +69,9 @@ private:
 
     void head(CellId cell);
     bool next_obscured(Search& search, CellId& obscured);
-    bool obscures(const Extent& front, const Extent& back);
+    bool pass_first_tests(Search& search, const Extent& front, const WindowLists::Range& windows,
+                          std::span<const WindowLists::Listed> list);
+    bool obscures(CellId front, CellId back);
     void enter_window(Search& search);
     void list_component(CellId first, Order& order);
 

@@ -22,6 +22,12 @@ public:
         std::uint32_t plane;
         std::uint16_t first_column, last_column, first_row, last_row;
     };
+    /// A cell in a list: its extent, and the first window of the image plane that it is in.
+    struct Listed {
+        CellId cell;
+        std::uint16_t first_column, first_row;
+        float left, right, bottom, top, far;
+    };
 
     /// Lists those of `extents` whose cell `is_listed`, in `side` by `side` windows an image plane.
     template <class IsListed>
@@ -44,7 +50,7 @@ public:
     {
         return (range.plane * side_ + row) * side_ + column;
     }
-    std::span<const Extent> list(std::uint32_t number) const
+    std::span<const Listed> list(std::uint32_t number) const
     {
         return {listed_.data() + begin_[number], listed_.data() + begin_[number + 1]};
     }
@@ -52,7 +58,7 @@ public:
 
     std::size_t bytes() const
     {
-        return sorted_.capacity() * sizeof(const Extent*) + listed_.capacity() * sizeof(Extent) +
+        return sorted_.capacity() * sizeof(const Extent*) + listed_.capacity() * sizeof(Listed) +
                begin_.capacity() * sizeof(std::size_t);
     }
 
@@ -66,7 +72,7 @@ private:
 
     std::uint32_t side_ = 1;
     std::vector<const Extent*> sorted_;
-    std::vector<Extent> listed_;
+    std::vector<Listed> listed_;
     std::vector<std::size_t> begin_; // of each list in listed_, and their end
 };
 
