@@ -56,9 +56,18 @@ void Newell::sort(const View& view, Order& order)
     first_left_.assign(lists_.count(), 0);
     count_ = {};
     next_number_ = 0;
+    gone_ = 0;
+    std::size_t cells_listed = cells;
     for (CellId farthest : by_farthest_) {
         if (number_[farthest] != unseen)
             continue;
+        // No search is on, so that places in the lists may change: cells in the order, which are only passed over, go.
+        if (3 * gone_ > cells_listed) {
+            lists_.keep([&](CellId cell) { return number_[cell] != in_order; });
+            std::fill(first_left_.begin(), first_left_.end(), 0);
+            cells_listed -= gone_;
+            gone_ = 0;
+        }
         head(farthest);
         while (!searches_.empty()) {
             CellId obscured;
@@ -154,21 +163,24 @@ bool Newell::pass_first_tests(Search& search, const Extent& front, const WindowL
     const std::uint32_t lowest = lowest_[search.cell];
     const WindowLists::Listed* const end = list.data() + list.size();
     const WindowLists::Listed* at = list.data() + search.position;
+    const std::uint32_t column = search.column, row = search.row;
+    const Extent extent = front;
+    const std::uint32_t first_column = windows.first_column, first_row = windows.first_row;
     std::size_t across_here = 0, down_here = 0;
     bool found = false;
     for (; at != end; ++at) {
         // Of a cell that is in the order, or came to the head after one that is known to be reached, nothing is left to
         // learn; and two cells that meet in several windows are a pair in the first of these alone.
         const bool is_pair = (number[at->cell] < lowest) &
-                             (search.column == std::max(windows.first_column, at->first_column)) &
-                             (search.row == std::max(windows.first_row, at->first_row));
-        if (at->far < front.near) {
+                             (column == std::max<std::uint32_t>(first_column, at->first_column)) &
+                             (row == std::max<std::uint32_t>(first_row, at->first_row));
+        if (at->far < extent.near) {
             count_[depth] += is_pair;
             at = end;
             break;
         }
-        const bool is_across = (at->right < front.left) | (front.right < at->left);
-        const bool is_down = (at->top < front.bottom) | (front.top < at->bottom);
+        const bool is_across = (at->right < extent.left) | (extent.right < at->left);
+        const bool is_down = (at->top < extent.bottom) | (extent.top < at->bottom);
         across_here += is_pair & is_across;
         down_here += is_pair & !is_across & is_down;
         if (is_pair & !is_across & !is_down) {
@@ -222,6 +234,7 @@ void Newell::list_component(CellId first, Order& order)
     const std::span<const CellId> cells(begin, open_.end());
     for (CellId cell : cells) {
         number_[cell] = in_order;
+        ++gone_;
         order.back_to_front.push_back(caller[cell]);
     }
     if (cells.size() > 1) {

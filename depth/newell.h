@@ -87,6 +87,7 @@ private:
     std::uint32_t next_number_ = 0;
     std::vector<Search> searches_;
     std::vector<CellId> open_;
+    std::size_t gone_ = 0;                // cells in the order that are still in lists
     std::vector<std::size_t> first_left_; // in each window's list, the first cell not in the order yet
 
     std::array<std::size_t, counts> count_{};

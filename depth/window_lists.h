@@ -41,6 +41,21 @@ public:
         distribute(extents.plane_count());
     }
 
+    /// Takes cells out of the lists.
+    template <class IsLeft>
+    void keep(IsLeft&& is_left)
+    {
+        std::size_t end = 0, next = 0;
+        for (std::size_t list = 0; list < count(); ++list) {
+            const std::size_t list_end = begin_[list + 1];
+            for (; next < list_end; ++next)
+                if (is_left(listed_[next].cell))
+                    listed_[end++] = listed_[next];
+            begin_[list + 1] = end;
+        }
+        listed_.resize(end);
+    }
+
     Range windows_of(const Extent& extent) const
     {
         return {extent.plane, window(extent.left), window(extent.right), window(extent.bottom), window(extent.top)};
