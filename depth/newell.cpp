@@ -1,6 +1,8 @@
 #include "depth/newell.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <oneapi/tbb/parallel_sort.h>
@@ -93,15 +95,15 @@ void Newell::head(CellId cell)
 {
     number_[cell] = lowest_[cell] = ++next_number_;
     open_.push_back(cell);
-    Search search{cell, 0, 0, 0, 0};
+    Search search{cell, 0, 0, 0, 0, 0, 0};
     if (!obstruction_.can_obstruct(cell))
         search.extent = static_cast<std::uint32_t>(extents_.of(cell).size());
-    enter_window(search);
+    enter_extent(search);
     searches_.push_back(search);
 }
 
 // Begins with the first window of the search's extent, if it has one.
-void Newell::enter_window(Search& search)
+void Newell::enter_extent(Search& search)
 {
     const auto extents = extents_.of(search.cell);
     if (search.extent == extents.size())
@@ -109,27 +111,47 @@ void Newell::enter_window(Search& search)
     const WindowLists::Range windows = lists_.windows_of(extents[search.extent]);
     search.column = windows.first_column;
     search.row = windows.first_row;
-    search.position = first_left_[lists_.list_of(windows, search.column, search.row)];
+    enter_window(search);
+}
+
+// Begins with the first cell that is left in the window's list. The list goes on in the order of far ends, so that test
+// 1 tells at once where the search is to end.
+void Newell::enter_window(Search& search)
+{
+    const Extent& front = extents_.of(search.cell)[search.extent];
+    const std::uint32_t number = lists_.list_of(lists_.windows_of(front), search.column, search.row);
+    const WindowLists::List list = lists_.list(number);
+    std::size_t& first_left = first_left_[number];
+    while (first_left < list.size && number_[list.cell[first_left]] == in_order)
+        ++first_left;
+    const float* const begin = list.far + first_left;
+    const float* const end =
+        std::partition_point(begin, list.far + list.size, [&](float far) { return far >= front.near; });
+    search.next = first_left;
+    search.end = static_cast<std::size_t>(end - list.far);
+    search.waiting = 0;
+    if (search.end < list.size)
+        count_[depth] += number_[list.cell[search.end]] < lowest_[search.cell];
 }
 
 // Goes on with the search up to a cell that is obscured and has not come to the head yet.
 bool Newell::next_obscured(Search& search, CellId& obscured)
 {
     const auto extents = extents_.of(search.cell);
-    for (; search.extent < extents.size(); ++search.extent, enter_window(search)) {
+    for (; search.extent < extents.size(); ++search.extent, enter_extent(search)) {
         const Extent& front = extents[search.extent];
         const WindowLists::Range windows = lists_.windows_of(front);
         while (true) {
-            const std::uint32_t number = lists_.list_of(windows, search.column, search.row);
-            const std::span<const WindowLists::Listed> list = lists_.list(number);
-            std::size_t& first_left = first_left_[number];
-            while (first_left < list.size() && number_[list[first_left].cell] == in_order)
-                ++first_left;
-            search.position = std::max(search.position, first_left);
-            while (pass_first_tests(search, front, windows, list)) {
-                const CellId back = list[search.position].cell;
-                ++search.position;
-                if (!obscures(search.cell, back))
+            const WindowLists::List list = lists_.list(lists_.list_of(windows, search.column, search.row));
+            while (search.waiting != 0 || search.next < search.end) {
+                if (search.waiting == 0) {
+                    first_tests(search, front, list);
+                    continue;
+                }
+                const auto first = static_cast<std::size_t>(std::countr_zero(search.waiting));
+                search.waiting &= search.waiting - 1;
+                const CellId back = list.cell[search.next - block + first];
+                if (number_[back] >= lowest_[search.cell] || !obscures(search.cell, back))
                     continue;
                 if (number_[back] == unseen) {
                     obscured = back;
@@ -146,52 +168,48 @@ bool Newell::next_obscured(Search& search, CellId& obscured)
             } else {
                 break;
             }
-            search.position = 0;
+            enter_window(search);
         }
     }
     return false;
 }
 
-// Moves the search on to the next cell of a list that the tests 1 to 3 do not settle; returns false where there is
-// none.
-bool Newell::pass_first_tests(Search& search, const Extent& front, const WindowLists::Range& windows,
-                              std::span<const WindowLists::Listed> list)
+// Holds a block of a list against the tests 2 and 3, which settle nearly all pairs, in no order that a processor could
+// foresee: so without branches, and many at a time.
+void Newell::first_tests(Search& search, const Extent& front, const WindowLists::List& list)
 {
-    // These tests settle nearly all pairs, in no order that a processor could foresee: so the only branches are those
-    // hardly ever taken.
-    const std::uint32_t* const number = number_.data();
+    const std::size_t begin = search.next, n = std::min(block, search.end - begin);
+    // Of a cell that is in the order, or came to the head after one that is known to be reached, nothing is left to
+    // learn; and two cells that meet in several windows are a pair in the first of these alone.
+    std::array<std::uint32_t, block> pair, apart_across, apart_down;
     const std::uint32_t lowest = lowest_[search.cell];
-    const WindowLists::Listed* const end = list.data() + list.size();
-    const WindowLists::Listed* at = list.data() + search.position;
-    const std::uint32_t column = search.column, row = search.row;
-    const Extent extent = front;
-    const std::uint32_t first_column = windows.first_column, first_row = windows.first_row;
-    std::size_t across_here = 0, down_here = 0;
-    bool found = false;
-    for (; at != end; ++at) {
-        // Of a cell that is in the order, or came to the head after one that is known to be reached, nothing is left to
-        // learn; and two cells that meet in several windows are a pair in the first of these alone.
-        const bool is_pair = (number[at->cell] < lowest) &
-                             (column == std::max<std::uint32_t>(first_column, at->first_column)) &
-                             (row == std::max<std::uint32_t>(first_row, at->first_row));
-        if (at->far < extent.near) {
-            count_[depth] += is_pair;
-            at = end;
-            break;
-        }
-        const bool is_across = (at->right < extent.left) | (extent.right < at->left);
-        const bool is_down = (at->top < extent.bottom) | (extent.top < at->bottom);
-        across_here += is_pair & is_across;
-        down_here += is_pair & !is_across & is_down;
-        if (is_pair & !is_across & !is_down) {
-            found = true;
-            break;
-        }
+    for (std::size_t i = 0; i < n; ++i)
+        pair[i] = number_[list.cell[begin + i]] < lowest;
+    if (windows_) {
+        const WindowLists::Range windows = lists_.windows_of(front);
+        for (std::size_t i = 0; i < n; ++i)
+            pair[i] &= static_cast<std::uint32_t>(
+                (search.column == std::max(windows.first_column, list.first_column[begin + i])) &
+                (search.row == std::max(windows.first_row, list.first_row[begin + i])));
     }
-    search.position = static_cast<std::size_t>(at - list.data());
-    count_[across] += across_here;
-    count_[down] += down_here;
-    return found;
+    const float left = front.left, right = front.right, bottom = front.bottom, top = front.top;
+    for (std::size_t i = 0; i < n; ++i)
+        apart_across[i] = static_cast<std::uint32_t>((list.right[begin + i] < left) | (right < list.left[begin + i]));
+    for (std::size_t i = 0; i < n; ++i)
+        apart_down[i] = static_cast<std::uint32_t>((list.top[begin + i] < bottom) | (top < list.bottom[begin + i]));
+    std::uint32_t settled_across = 0, settled_down = 0, left_over = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        settled_across += pair[i] & apart_across[i];
+        pair[i] &= ~apart_across[i];
+        settled_down += pair[i] & apart_down[i];
+        pair[i] &= ~apart_down[i];
+        left_over |= pair[i];
+    }
+    count_[across] += settled_across;
+    count_[down] += settled_down;
+    search.next = begin + block;
+    for (std::size_t i = 0; left_over != 0 && i < n; ++i)
+        search.waiting |= pair[i] << i;
 }
 
 // The tests after the first three.

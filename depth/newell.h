@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace visorder {
@@ -64,14 +63,17 @@ private:
         CellId cell;
         std::uint32_t extent; // of the cell's
         std::uint32_t column, row;
-        std::size_t position; // in that window's list
+        std::size_t next,
+            end; // in that window's list: after what passed tests 1 to 3, and where test 1 ends the search
+        std::uint32_t waiting; // bits for the `block` before `next`: what passed these tests and not yet the others
     };
+    static constexpr std::size_t block = 32;
 
     void head(CellId cell);
     bool next_obscured(Search& search, CellId& obscured);
-    bool pass_first_tests(Search& search, const Extent& front, const WindowLists::Range& windows,
-                          std::span<const WindowLists::Listed> list);
+    void first_tests(Search& search, const Extent& front, const WindowLists::List& list);
     bool obscures(CellId front, CellId back);
+    void enter_extent(Search& search);
     void enter_window(Search& search);
     void list_component(CellId first, Order& order);
 

@@ -4,6 +4,36 @@
 
 namespace visorder {
 
+void WindowLists::Columns::resize(std::size_t size)
+{
+    cell.resize(size);
+    for (LargeArray<float>* column : {&left, &right, &bottom, &top, &far})
+        column->resize(size);
+    first_column.resize(size);
+    first_row.resize(size);
+}
+
+void WindowLists::Columns::set(std::size_t at, const Extent& extent, const Range& windows)
+{
+    cell[at] = extent.cell;
+    left[at] = extent.left;
+    right[at] = extent.right;
+    bottom[at] = extent.bottom;
+    top[at] = extent.top;
+    far[at] = extent.far;
+    first_column[at] = windows.first_column;
+    first_row[at] = windows.first_row;
+}
+
+void WindowLists::Columns::copy(std::size_t from, std::size_t to)
+{
+    cell[to] = cell[from];
+    for (LargeArray<float>* column : {&left, &right, &bottom, &top, &far})
+        (*column)[to] = (*column)[from];
+    first_column[to] = first_column[from];
+    first_row[to] = first_row[from];
+}
+
 void WindowLists::distribute(std::uint32_t planes)
 {
     oneapi::tbb::parallel_sort(sorted_.begin(), sorted_.end(), [](const Extent* a, const Extent* b) {
@@ -23,9 +53,8 @@ void WindowLists::distribute(std::uint32_t planes)
         begin_[list] += begin_[list - 1];
     listed_.resize(begin_.back());
     // Each list's beginning moves on to its end, which is the beginning of the next.
-    each([&](const Extent& e, const Range& range, std::uint32_t list) {
-        listed_[begin_[list + 1]++] = {e.cell,  range.first_column, range.first_row, e.left,
-                                       e.right, e.bottom,           e.top,           e.far};
+    each([&](const Extent& extent, const Range& range, std::uint32_t list) {
+        listed_.set(begin_[list + 1]++, extent, range);
     });
     begin_.pop_back();
 }

@@ -22,11 +22,12 @@ public:
         std::uint32_t plane;
         std::uint16_t first_column, last_column, first_row, last_row;
     };
-    /// A cell in a list: its extent, and the first window of the image plane that it is in.
-    struct Listed {
-        CellId cell;
-        std::uint16_t first_column, first_row;
-        float left, right, bottom, top, far;
+    /// Of the cells in a list, column by column: their extents, and the first window of the image plane each is in.
+    struct List {
+        const CellId* cell;
+        const float *left, *right, *bottom, *top, *far;
+        const std::uint16_t *first_column, *first_row;
+        std::size_t size;
     };
 
     /// Lists those of `extents` whose cell `is_listed`, in `side` by `side` windows an image plane.
@@ -49,11 +50,10 @@ public:
         for (std::size_t list = 0; list < count(); ++list) {
             const std::size_t list_end = begin_[list + 1];
             for (; next < list_end; ++next)
-                if (is_left(listed_[next].cell))
-                    listed_[end++] = listed_[next];
+                if (is_left(listed_.cell[next]))
+                    listed_.copy(next, end++);
             begin_[list + 1] = end;
         }
-        listed_.resize(end);
     }
 
     Range windows_of(const Extent& extent) const
@@ -65,16 +65,18 @@ public:
     {
         return (range.plane * side_ + row) * side_ + column;
     }
-    std::span<const Listed> list(std::uint32_t number) const
+    List list(std::uint32_t number) const
     {
-        return {listed_.data() + begin_[number], listed_.data() + begin_[number + 1]};
+        const std::size_t begin = begin_[number];
+        return {listed_.cell.data() + begin,         listed_.left.data() + begin,      listed_.right.data() + begin,
+                listed_.bottom.data() + begin,       listed_.top.data() + begin,       listed_.far.data() + begin,
+                listed_.first_column.data() + begin, listed_.first_row.data() + begin, begin_[number + 1] - begin};
     }
     std::uint32_t count() const { return static_cast<std::uint32_t>(begin_.size() - 1); }
 
     std::size_t bytes() const
     {
-        return sorted_.capacity() * sizeof(const Extent*) + listed_.capacity() * sizeof(Listed) +
-               begin_.capacity() * sizeof(std::size_t);
+        return sorted_.capacity() * sizeof(const Extent*) + listed_.bytes() + begin_.capacity() * sizeof(std::size_t);
     }
 
 private:
@@ -85,9 +87,23 @@ private:
     }
     void distribute(std::uint32_t planes);
 
+    struct Columns {
+        LargeArray<CellId> cell;
+        LargeArray<float> left, right, bottom, top, far;
+        LargeArray<std::uint16_t> first_column, first_row;
+
+        void resize(std::size_t size);
+        void set(std::size_t at, const Extent& extent, const Range& windows);
+        void copy(std::size_t from, std::size_t to);
+        std::size_t bytes() const
+        {
+            return cell.capacity() * (sizeof(CellId) + 5 * sizeof(float) + 2 * sizeof(std::uint16_t));
+        }
+    };
+
     std::uint32_t side_ = 1;
     std::vector<const Extent*> sorted_;
-    std::vector<Listed> listed_;
+    Columns listed_;
     std::vector<std::size_t> begin_; // of each list in listed_, and their end
 };
 
