@@ -289,7 +289,8 @@ std::vector<Statistic> Newell::statistics() const
         pairs += count_[i];
     std::vector<Statistic> statistics{{"pairs", static_cast<double>(pairs)}};
     for (std::size_t i = 0; i < counts; ++i)
-        statistics.push_back({names[i], static_cast<double>(count_[i])});
+        statistics.push_back(
+            {names[i], static_cast<double>(count_[i]), static_cast<double>(i <= definitive_obstructs ? pairs : 0)});
     return statistics;
 }
 
