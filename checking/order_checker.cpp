@@ -1,6 +1,5 @@
 #include "checking/order_checker.h"
 
-#include "checking/overlapping_cells.h"
 #include "scene/error.h"
 #include "scene/face_loop.h"
 #include "scene/face_overlap.h"
@@ -37,12 +36,6 @@ void each_cell(const Scene& scene, const Body& body)
 Pair ascending(CellId a, CellId b)
 {
     return {std::min(a, b), std::max(a, b)};
-}
-
-void sort_unique(std::vector<Pair>& pairs)
-{
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 // Throws for the lowest cell, in the caller's numbering, with a face that is not planar.
@@ -205,7 +198,7 @@ private:
 
 } // namespace
 
-Relations::Relations(const Scene& scene, const glm::dvec4& eye, const std::vector<Pair>& overlapping)
+Relations::Relations(const Scene& scene, const glm::dvec4& eye)
     : scene_(&scene),
       adjacency_(scene.is_surface() ? nullptr : &scene.adjacency()),
       eye_(eye),
@@ -213,7 +206,7 @@ Relations::Relations(const Scene& scene, const glm::dvec4& eye, const std::vecto
 {
     if (!scene.is_surface())
         evaluate_interior();
-    evaluate_boundary(overlapping);
+    evaluate_boundary();
 }
 
 void Relations::evaluate_interior()
@@ -248,22 +241,14 @@ void Relations::evaluate_interior()
     count_ += count;
 }
 
-void Relations::evaluate_boundary(const std::vector<Pair>& overlapping)
+void Relations::evaluate_boundary()
 {
     BoundaryRelations found;
     boundary_relations(*scene_, eye_, found);
-    std::vector<Pair> pairs = overlapping;
-    for (const auto& [f, g] : found.crossings)
-        pairs.push_back(ascending(f.cell, g.cell));
-    sort_unique(pairs);
     boundary_ = std::move(found.relations);
-    if (!pairs.empty())
-        std::erase_if(boundary_, [&](const Relation& relation) {
-            return std::binary_search(pairs.begin(), pairs.end(), ascending(relation.front, relation.back));
-        });
     count_ += boundary_.size();
     const auto caller = scene_->caller_cells();
-    for (const auto& [a, b] : pairs)
+    for (const auto& [a, b] : found.overlapping)
         overlapping_.push_back(ascending(caller[a], caller[b]));
     std::sort(overlapping_.begin(), overlapping_.end());
 }
@@ -334,7 +319,7 @@ OrderChecker::OrderChecker(const Scene& scene) : scene_(scene), inner_cells_(sce
 Relations OrderChecker::relations_at(const glm::dvec4& eye) const
 {
     validate(View{eye, glm::dmat4(1), glm::ivec2(1)});
-    return Relations(scene_, eye, overlapping_.get([&] { return overlapping_cells(scene_); }));
+    return Relations(scene_, eye);
 }
 
 CheckResult OrderChecker::check(const Relations& relations, const Order& order, CheckOptions options) const

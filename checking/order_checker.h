@@ -71,10 +71,10 @@ private:
         Derived<UnorderableSets> unorderable;
     };
 
-    Relations(const Scene& scene, const glm::dvec4& eye, const std::vector<std::pair<CellId, CellId>>& overlapping);
+    Relations(const Scene& scene, const glm::dvec4& eye);
 
     void evaluate_interior();
-    void evaluate_boundary(const std::vector<std::pair<CellId, CellId>>& overlapping);
+    void evaluate_boundary();
     UnorderableSets find_unorderable() const;
     const UnorderableSets& unorderable() const;
 
@@ -134,8 +134,7 @@ private:
     glm::dvec3 witness(const Relations& relations, CellId front, CellId back) const;
 
     const Scene& scene_;
-    LargeArray<CellId> inner_cells_;                              // of the caller's
-    Derived<std::vector<std::pair<CellId, CellId>>> overlapping_; // inner numbering, a < b, ascending
+    LargeArray<CellId> inner_cells_; // of the caller's
 };
 
 } // namespace visorder

@@ -115,6 +115,12 @@ SightPlane edge_plane(const Viewpoint& from, const SeenFace& face, int edge)
     return {from, corner(face, edge), corner(face, edge + 1)};
 }
 
+// The side of the plane of sight through an edge of `face`, in which a common corner of two faces lies for sure.
+Sign side_of_edge(const SightPlane& plane, const SeenFace& face, int edge, const glm::dvec3& x)
+{
+    return x == corner(face, edge) || x == corner(face, edge + 1) ? Sign::zero : plane.side(x);
+}
+
 // Whether the plane of sight through an edge of `face` has all of `other` weakly on its outer side.
 bool edge_separates(const Viewpoint& from, const SeenFace& face, const SeenFace& other)
 {
@@ -122,7 +128,7 @@ bool edge_separates(const Viewpoint& from, const SeenFace& face, const SeenFace&
         const SightPlane plane = edge_plane(from, face, edge);
         bool outside = true;
         for (int i = 0; outside && i < other.count; ++i)
-            outside = plane.side(other.points[at(i)]) != face.turn;
+            outside = side_of_edge(plane, face, edge, other.points[at(i)]) != face.turn;
         if (outside)
             return true;
     }
@@ -211,7 +217,7 @@ struct ConeSides {
         for (int e = 0; e < edges.count; ++e) {
             const SightPlane plane = edge_plane(from, edges, e);
             for (int i = 0; i < corners.count; ++i)
-                of[at(e)][at(i)] = plane.side(corners.points[at(i)]) * edges.turn;
+                of[at(e)][at(i)] = side_of_edge(plane, edges, e, corners.points[at(i)]) * edges.turn;
         }
     }
 

@@ -23,6 +23,8 @@ struct SeenFace {
     std::array<glm::dvec3, 4> points; ///< the first three span the plane, unless `turn` is zero
     int count = 0;
     Sign turn = Sign::zero; ///< positive where the eye sees the vertices counterclockwise; zero: edge-on, or no area
+
+    std::span<const glm::dvec3> vertices() const { return {points.data(), static_cast<std::size_t>(count)}; }
 };
 
 /// `face` has up to four vertices in order around the face, which may repeat.

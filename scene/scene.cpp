@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "scene/numbering.h"
+#include "scene/overlapping_cells.h"
 
 #include <algorithm>
 #include <chrono>
@@ -45,6 +46,10 @@ std::size_t bytes(const LargeArray<glm::vec3>& x)
 std::size_t bytes(const Circumspheres& x)
 {
     return size_of(x.centre) + size_of(x.constant);
+}
+std::size_t bytes(const std::vector<std::pair<CellId, CellId>>& x)
+{
+    return size_of(x);
 }
 std::size_t bytes(const Traits&)
 {
@@ -135,6 +140,13 @@ const Traits& Scene::traits() const
     orientations();
     boundary();
     return derive(traits_, Structure::traits, [&] { return derive_traits(*this); });
+}
+
+const std::vector<std::pair<CellId, CellId>>& Scene::overlapping_cells() const
+{
+    orientations();
+    boundary();
+    return derive(overlapping_cells_, Structure::overlapping_cells, [&] { return derive_overlapping_cells(*this); });
 }
 
 std::vector<StructureRecord> Scene::derived() const

@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace visorder {
@@ -52,6 +53,8 @@ public:
     const LargeArray<glm::vec3>& centroids() const; ///< means of each cell's vertices, relative to the bounds' centre
     const Circumspheres& circumspheres() const;
     const Traits& traits() const;
+    /// Pairs of cells whose interiors have a point in common: no order of them exists. See overlapping_cells.h.
+    const std::vector<std::pair<CellId, CellId>>& overlapping_cells() const;
 
     /// What has been derived so far, in the order in which it was.
     std::vector<StructureRecord> derived() const;
@@ -73,6 +76,7 @@ private:
     Derived<LargeArray<glm::vec3>> centroids_;
     Derived<Circumspheres> circumspheres_;
     Derived<Traits> traits_;
+    Derived<std::vector<std::pair<CellId, CellId>>> overlapping_cells_;
 
     mutable std::mutex records_mutex_;
     mutable std::vector<StructureRecord> records_;

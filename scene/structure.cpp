@@ -21,6 +21,8 @@ const char* name(Structure structure)
         return "circumspheres";
     case Structure::traits:
         return "traits";
+    case Structure::overlapping_cells:
+        return "overlaps";
     }
     return "";
 }

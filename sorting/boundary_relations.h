@@ -16,11 +16,11 @@ class Scene;
 struct BoundaryRelations {
     /// Ascending, each pair once: from the owner of an exit face F to the owner of an entry face G that F covers in
     /// part, nearer or coincident. Without the pairs of cells that share an interior face, whose relation that face
-    /// carries.
+    /// carries, and without the `overlapping` ones.
     std::vector<Relation> relations;
-    /// Exit and entry faces that cross in projection, ascending by cells and faces: each is nearer somewhere. Their
-    /// cells overlap in space.
-    std::vector<std::pair<CellFace, CellFace>> crossings;
+    /// Pairs (a, b), a < b, ascending, of which no order exists: the scene's cells that overlap in space, and the
+    /// triangles of a surface that cross as seen from the eye.
+    std::vector<std::pair<CellId, CellId>> overlapping;
     std::size_t candidates = 0; ///< pairs of faces put to the exact test
 };
 

@@ -453,29 +453,43 @@ void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_ce
 
 } // namespace
 
-void TopologicalSort::run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order)
+template <int row, class State>
+void TopologicalSort::run_over(const Scene& scene, const FaceSigns* signs, std::span<const Relation> more,
+                               LargeArray<State>& state, Order& order)
 {
-    const Adjacency& adjacency = scene.adjacency();
     const CellId cells = scene.cell_count();
     level_.resize(cells);
-    if (!more.empty())
+    state.resize(cells);
+    Frame<row, State> frame{nullptr, state.data(), level_.data(), cells, nullptr, nullptr};
+    if constexpr (row > 0) {
+        frame.neighbour = scene.adjacency().neighbour.data();
+        count_relations<row>(scene.adjacency(), *signs, state.data(), cells);
+    } else {
+        std::fill(state.begin(), state.end(), State{0});
+    }
+    if (!more.empty()) {
         group_by_back(more, cells, more_begin_, more_front_);
-    const auto run_with = [&]<int row, class State>(LargeArray<State>& state) {
-        state.resize(cells);
-        count_relations<row>(adjacency, signs, state.data(), cells);
+        frame.more_begin = more_begin_.data();
+        frame.more_front = more_front_.data();
         for (const Relation& r : more)
             state[r.front] = static_cast<State>(state[r.front] + Frame<row, State>::one);
-        const Frame<row, State> frame{
-            adjacency.neighbour.data(), state.data(), level_.data(), cells, more.empty() ? nullptr : more_begin_.data(),
-            more_front_.data()};
-        run_frame(frame, scene.caller_cells(), fronts_, cursors_, order);
-    };
-    if (adjacency.row_length == 4 && more.empty())
-        run_with.template operator()<4>(small_state_);
-    else if (adjacency.row_length == 4)
-        run_with.template operator()<4>(large_state_);
+    }
+    run_frame(frame, scene.caller_cells(), fronts_, cursors_, order);
+}
+
+void TopologicalSort::run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order)
+{
+    if (scene.adjacency().row_length == 4 && more.empty())
+        run_over<4>(scene, &signs, more, small_state_, order);
+    else if (scene.adjacency().row_length == 4)
+        run_over<4>(scene, &signs, more, large_state_, order);
     else
-        run_with.template operator()<6>(large_state_);
+        run_over<6>(scene, &signs, more, large_state_, order);
+}
+
+void TopologicalSort::run(const Scene& scene, std::span<const Relation> relations, Order& order)
+{
+    run_over<0>(scene, nullptr, relations, large_state_, order);
 }
 
 std::size_t TopologicalSort::bytes() const

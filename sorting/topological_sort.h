@@ -28,6 +28,9 @@ public:
     /// `more` of them.
     void run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order);
 
+    /// The same by `relations` alone, such as those of a surface, whose triangles' common edges say nothing.
+    void run(const Scene& scene, std::span<const Relation> relations, Order& order);
+
     std::size_t bytes() const;
 
     /// The frontier of one thread; see topological_sort.cpp.
@@ -39,6 +42,10 @@ public:
     };
 
 private:
+    template <int row, class State>
+    void run_over(const Scene& scene, const FaceSigns* signs, std::span<const Relation> more, LargeArray<State>& state,
+                  Order& order);
+
     LargeArray<std::uint8_t> small_state_;  // a tetrahedron without more relations
     LargeArray<std::uint32_t> large_state_; // any other cell
     LargeArray<std::uint32_t> level_;

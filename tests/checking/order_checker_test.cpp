@@ -1,7 +1,7 @@
 #include "brute_force.h"
 #include "checking/order_checker.h"
-#include "checking/overlapping_cells.h"
 #include "scene/error.h"
+#include "scene/overlapping_cells.h"
 #include "small_scenes.h"
 
 #include <algorithm>
@@ -343,7 +343,7 @@ TEST(OrderChecker, CellsThatOverlapAreReportedApart)
         add_random_cell(mesh, random, 0, 9);
     const Scene scene(mesh);
     std::vector<std::pair<CellId, CellId>> overlapping;
-    for (const auto& [a, b] : overlapping_cells(scene)) {
+    for (const auto& [a, b] : scene.overlapping_cells()) {
         const CellId x = scene.caller_cells()[a], y = scene.caller_cells()[b];
         overlapping.emplace_back(std::min(x, y), std::max(x, y));
     }

@@ -1,5 +1,5 @@
 #include "brute_force.h"
-#include "checking/overlapping_cells.h"
+#include "scene/overlapping_cells.h"
 #include "small_scenes.h"
 
 #include <array>
@@ -75,13 +75,13 @@ TEST(InteriorsOverlap, FlatCellsHaveNoInterior)
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{4, 5, 1, 2});
     const Scene scene(mesh);
     EXPECT_FALSE(interiors_overlap(scene, 0, 1));
-    EXPECT_TRUE(overlapping_cells(scene).empty());
+    EXPECT_TRUE(scene.overlapping_cells().empty());
 }
 
 TEST(OverlappingCells, SoundScenesHaveNone)
 {
     for (const SmallScene& small : small_scenes())
-        EXPECT_TRUE(overlapping_cells(Scene(small.mesh)).empty()) << small.name;
+        EXPECT_TRUE(Scene(small.mesh).overlapping_cells().empty()) << small.name;
 }
 
 TEST(OverlappingCells, RandomCellsOverlapAsTheDefinitionHasIt)
@@ -92,7 +92,7 @@ TEST(OverlappingCells, RandomCellsOverlapAsTheDefinitionHasIt)
         for (int i = 0; i < 12; ++i)
             add_random_cell(mesh, random, 0, 6);
         const Scene scene(mesh);
-        EXPECT_EQ(overlapping_cells(scene), pairs_by_brute_force(scene)) << seed;
+        EXPECT_EQ(scene.overlapping_cells(), pairs_by_brute_force(scene)) << seed;
     }
 }
 
@@ -104,7 +104,7 @@ TEST(OverlappingCells, AMeshWithinAnotherOverlapsItThoughTheirBoundariesDoNotMee
     const Scene scene(mesh);
     const Pairs expected = pairs_by_brute_force(scene);
     EXPECT_EQ(expected.size(), 1u);
-    EXPECT_EQ(overlapping_cells(scene), expected);
+    EXPECT_EQ(scene.overlapping_cells(), expected);
 }
 
 TEST(OverlappingCells, AMeshOnTopOfItselfOverlaps)
@@ -112,7 +112,7 @@ TEST(OverlappingCells, AMeshOnTopOfItselfOverlaps)
     Mesh mesh = carved_delaunay(8, 20, 1, 2);
     append(mesh, mesh, glm::dvec3(1), glm::dvec3(0));
     const Scene scene(mesh);
-    const Pairs pairs = overlapping_cells(scene);
+    const Pairs pairs = scene.overlapping_cells();
     EXPECT_GE(pairs.size(), scene.cell_count() / 2);
     EXPECT_EQ(pairs, pairs_by_brute_force(scene));
 }
@@ -124,7 +124,7 @@ TEST(OverlappingCells, FoldedFacesAreFound)
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 1, 2, 3});
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 1, 2, 4});
     const Scene scene(mesh);
-    EXPECT_EQ(overlapping_cells(scene), (Pairs{{0, 1}}));
+    EXPECT_EQ(scene.overlapping_cells(), (Pairs{{0, 1}}));
 }
 
 TEST(OverlappingCells, AFoldBehindAFlatCellIsFound)
@@ -136,8 +136,8 @@ TEST(OverlappingCells, AFoldBehindAFlatCellIsFound)
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 1, 2, 4});
     mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 1, 3, 5});
     const Scene scene(mesh);
-    EXPECT_EQ(overlapping_cells(scene), pairs_by_brute_force(scene));
-    EXPECT_EQ(overlapping_cells(scene).size(), 1u);
+    EXPECT_EQ(scene.overlapping_cells(), pairs_by_brute_force(scene));
+    EXPECT_EQ(scene.overlapping_cells().size(), 1u);
 }
 
 TEST(OverlappingCells, TrianglesHaveNoInteriors)
@@ -146,7 +146,7 @@ TEST(OverlappingCells, TrianglesHaveNoInteriors)
     mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -1}, {1, 1, 1}, {2, 1, 1}};
     mesh.add(CellShape::triangle, std::array<PointId, 3>{0, 1, 2});
     mesh.add(CellShape::triangle, std::array<PointId, 3>{3, 4, 5});
-    EXPECT_TRUE(overlapping_cells(Scene(mesh)).empty());
+    EXPECT_TRUE(Scene(mesh).overlapping_cells().empty());
 }
 
 } // namespace

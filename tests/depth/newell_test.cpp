@@ -360,6 +360,23 @@ TEST(Newell, ListsEveryCellWhereCellsOverlapAndWhereFacesAreCurved)
     }
 }
 
+TEST(Newell, KeepsTheRelationsBesideCellsThatOverlap)
+{
+    for (std::uint64_t seed = 1; seed <= 100 && !HasFailure(); ++seed) {
+        Random random(seed);
+        Mesh mesh;
+        for (int i = 0; i < 8 + static_cast<int>(seed % 20); ++i)
+            add_random_cell(mesh, random, 0, 14);
+        try {
+            const Scene scene(mesh);
+            scene.adjacency();
+            expect_right_order(scene, fmt::format("overlapping cells {}", seed),
+                               some_of(small_scene_eyes(scene, seed), seed, 4));
+        } catch (const InputError&) { // three cells on one face
+        }
+    }
+}
+
 TEST(Newell, TakesCellsWithoutAnAdjacency)
 {
     // Three tetrahedra on one face: no mesh, but cells that lie apart from the eye in the plane's other half.

@@ -18,6 +18,6 @@ bool interiors_overlap(const Scene& scene, CellId a, CellId b);
 ///
 /// In a sound mesh this costs little: only the cells at the boundary, and one cell of each piece of the boundary
 /// against all, are searched for a first such pair; where there is none there, there is none at all (see the source).
-std::vector<std::pair<CellId, CellId>> overlapping_cells(const Scene& scene);
+std::vector<std::pair<CellId, CellId>> derive_overlapping_cells(const Scene& scene);
 
 } // namespace visorder

@@ -1,4 +1,4 @@
-#include "checking/overlapping_cells.h"
+#include "scene/overlapping_cells.h"
 
 #include "scene/box_hierarchy.h"
 #include "scene/exact_predicates.h"
@@ -285,7 +285,7 @@ bool interiors_overlap(const Scene& scene, CellId a, CellId b)
     return orientations.sign[a] != 0 && orientations.sign[b] != 0 && solids_overlap(scene.mesh(), a, b);
 }
 
-std::vector<std::pair<CellId, CellId>> overlapping_cells(const Scene& scene)
+std::vector<std::pair<CellId, CellId>> derive_overlapping_cells(const Scene& scene)
 {
     if (scene.is_surface())
         return {};

@@ -1,0 +1,382 @@
+#include "bsp/bsp_xmpvo.h"
+
+#include "scene/face_loop.h"
+#include "sorting/registry.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <utility>
+
+namespace visorder {
+
+namespace {
+
+constexpr std::uint8_t exit_role = 1;
+constexpr std::uint8_t entry_role = 2;
+constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::size_t faces_between_lists = 64; // that the walk passes before cells that became ready are listed
+constexpr std::size_t prefetch_rows = 16;
+constexpr std::size_t prefetch_states = 6;
+
+constexpr auto bits_set = [] {
+    std::array<std::uint8_t, 1 << max_cell_faces> table{};
+    for (std::size_t bits = 1; bits < table.size(); ++bits)
+        table[bits] = static_cast<std::uint8_t>(table[bits / 2] + bits % 2);
+    return table;
+}();
+
+// The distinct points of a face with area, as face_overlap wants them: the first three span its plane. `turn` is left
+// to the eye.
+void set_points(const Scene& scene, const CellFace& face, SeenFace& seen)
+{
+    const auto add = [&](PointId v) {
+        const glm::dvec3& point = scene.mesh().points[v];
+        const auto end = seen.points.begin() + seen.count;
+        if (std::find(seen.points.begin(), end, point) == end)
+            seen.points[static_cast<std::size_t>(seen.count++)] = point;
+    };
+    if (scene.is_surface())
+        for (PointId v : scene.mesh().cell(face.cell))
+            add(v);
+    else
+        for (PointId v : face_loop(scene.mesh(), face.cell, static_cast<int>(face.face)))
+            add(v);
+    while (collinear(seen.points[0], seen.points[1], seen.points[2]))
+        std::rotate(seen.points.begin(), seen.points.begin() + 1, seen.points.begin() + seen.count);
+}
+
+} // namespace
+
+// One frame. A cell's state holds, in the lowest `row` bits, its interior entry faces; then one bit if it has boundary
+// faces in the tree; above, for how many of its exit faces it waits: interior ones for the cell behind, boundary ones
+// for the walk. At zero it is ready, and waits in the queue to be listed.
+template <int row, class State>
+class BspMerge {
+public:
+    BspMerge(BspXmpvo& sorter, State* state, const glm::dvec4& eye, Order& order)
+        : sorter_(sorter),
+          eye_(eye),
+          state_(state),
+          neighbour_(row > 0 ? sorter.scene_.adjacency().neighbour.data() : nullptr),
+          caller_cells_(sorter.scene_.caller_cells().data()),
+          order_(order.back_to_front.data())
+    {
+    }
+
+    // Returns how many cells were listed.
+    std::size_t run()
+    {
+        count();
+        std::size_t passed = 0;
+        sorter_.tree_.walk(eye_, [&](std::span<const std::uint32_t> group) {
+            pass(group);
+            passed += group.size();
+            if (passed >= faces_between_lists) {
+                list();
+                passed = 0;
+            }
+        });
+        list();
+        return listed_;
+    }
+
+private:
+    static constexpr State at_boundary = State{1} << row;
+    static constexpr State one = State{2} << row;
+
+    static bool ready(State s) { return s < one; }
+    CellId owner(std::uint32_t face) const { return sorter_.tree_.faces()[face].cell; }
+
+    void count()
+    {
+        const CellId cells = sorter_.scene_.cell_count();
+        if constexpr (row > 0) {
+            const Adjacency& adjacency = sorter_.scene_.adjacency();
+            const FaceSigns& signs = sorter_.signs_;
+            oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, cells, 16384), [&](const auto& range) {
+                for (CellId cell = range.begin(); cell < range.end(); ++cell) {
+                    const std::uint32_t interior = adjacency.interior[cell];
+                    const std::uint32_t obstructed = bits_set[signs.exit(cell) & interior];
+                    state_[cell] = static_cast<State>((signs.entry(cell) & interior) | obstructed * one);
+                }
+            });
+        } else {
+            std::fill_n(state_, cells, State{0});
+        }
+        for (std::uint32_t face = 0; face < sorter_.roles_.size(); ++face)
+            if (sorter_.roles_[face] != 0) {
+                const State more = (sorter_.roles_[face] & exit_role) != 0 ? one : State{0};
+                State& state = state_[owner(face)];
+                state = static_cast<State>((state + more) | at_boundary);
+            }
+        make_room(cells + 1);
+        CellId* const queue = sorter_.queue_.data();
+        for (CellId cell = 0; cell < cells; ++cell) {
+            queue[ready_] = cell;
+            ready_ += ready(state_[cell]);
+        }
+    }
+
+    void make_room(std::size_t size)
+    {
+        if (sorter_.queue_.size() < size)
+            sorter_.queue_.resize(size + size / 8);
+    }
+
+    bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
+
+    // The walk has come to some faces that are in one plane or in no order: first what may be covered, then what may
+    // cover.
+    void pass(std::span<const std::uint32_t> group)
+    {
+        const auto listed = [&](std::uint32_t boundary_cell) { return is_listed(boundary_cell); };
+        for (std::uint32_t face : group) {
+            if ((sorter_.roles_[face] & entry_role) == 0 ||
+                sorter_.groups_left_[face] != sorter_.tree_.group_counts()[face])
+                continue;
+            const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_face(face);
+            if (is_listed(boundary_cell))
+                continue;
+            sorter_.pending_.add(face, boundary_cell, listed);
+            ++sorter_.pending_count_;
+        }
+        for (std::uint32_t face : group)
+            if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0) {
+                State& state = state_[owner(face)];
+                state = static_cast<State>(state - one);
+                sorter_.queue_[ready_] = owner(face);
+                ready_ += ready(state);
+            }
+    }
+
+    // Lists the cells that are ready, and those that become so.
+    void list()
+    {
+        // Held in local variables: the compiler takes a store of a byte to change anything that is not local.
+        State* const state = state_;
+        const CellId* const neighbour = neighbour_;
+        const CellId* queue = sorter_.queue_.data();
+        CellId* to_queue = sorter_.queue_.data();
+        std::size_t ready_end = ready_;
+        for (std::size_t at = queue_begin_; at < ready_end; ++at) {
+            if (at + prefetch_rows < ready_end) {
+                const CellId ahead = queue[at + prefetch_rows];
+                __builtin_prefetch(caller_cells_ + ahead);
+                if constexpr (row > 0) {
+                    __builtin_prefetch(neighbour + std::size_t{ahead} * row);
+                    const CellId* soon = neighbour + std::size_t{queue[at + prefetch_states]} * row;
+                    for (int f = 0; f < row; ++f)
+                        __builtin_prefetch(state + soon[f], 1);
+                }
+            }
+            const CellId cell = queue[at];
+            const State s = state[cell];
+            if ((s & at_boundary) != 0) {
+                ready_ = ready_end;
+                const bool listed = list_at_boundary(cell);
+                ready_end = ready_;
+                queue = to_queue = sorter_.queue_.data();
+                if (!listed)
+                    continue;
+            }
+            order_[listed_++] = caller_cells_[cell];
+            if constexpr (row > 0) {
+                const CellId* across = neighbour + std::size_t{cell} * row;
+                for (int f = 0; f < row; ++f) {
+                    const auto holds = static_cast<State>(s >> f & 1u);
+                    const auto left = static_cast<State>(state[across[f]] - holds * one);
+                    state[across[f]] = left;
+                    to_queue[ready_end] = across[f];
+                    ready_end += holds & static_cast<State>(ready(left));
+                }
+            }
+        }
+        queue_begin_ = ready_ = ready_end;
+    }
+
+    // Whether a cell that is ready covers no pending face, and is listed; else it waits for the cell of one that it
+    // covers.
+    bool list_at_boundary(CellId cell)
+    {
+        const std::size_t boundary_cell = sorter_.boundary_cells_.of_cell(cell);
+        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
+        for (std::uint32_t face = begin; face < end; ++face) {
+            if ((sorter_.roles_[face] & exit_role) == 0)
+                continue;
+            const auto listed = [&](std::uint32_t other) { return is_listed(other); };
+            std::uint32_t covered = none;
+            sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
+                if (sorter_.obstructs(face, entry, eye_))
+                    covered = entry;
+                return covered == none;
+            });
+            if (covered == none)
+                continue;
+            ++sorter_.relation_count_;
+            const std::size_t behind = sorter_.boundary_cells_.of_face(covered);
+            sorter_.waiting_.push_back({cell, sorter_.waiting_head_[behind]});
+            sorter_.waiting_head_[behind] = static_cast<std::uint32_t>(sorter_.waiting_.size() - 1);
+            make_room(sorter_.scene_.cell_count() + sorter_.waiting_.size() + 1);
+            return false;
+        }
+        sorter_.is_listed_[boundary_cell] = 1;
+        for (std::uint32_t i = sorter_.waiting_head_[boundary_cell]; i != none; i = sorter_.waiting_[i].next)
+            sorter_.queue_[ready_++] = sorter_.waiting_[i].cell;
+        return true;
+    }
+
+    BspXmpvo& sorter_;
+    const glm::dvec4& eye_;
+    State* state_;
+    const CellId* neighbour_;
+    const CellId* caller_cells_;
+    CellId* order_;
+    std::size_t queue_begin_ = 0;
+    std::size_t ready_ = 0;
+    std::size_t listed_ = 0;
+};
+
+BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells)
+    : bits_((std::size_t{cells} + 63) / 64), before_(bits_.size())
+{
+    for (std::uint32_t face = 0; face < faces.size(); ++face) {
+        const CellId cell = faces[face].cell;
+        if (face == 0 || faces[face - 1].cell != cell)
+            first_face_.push_back(face);
+        of_face_.push_back(static_cast<std::uint32_t>(first_face_.size() - 1));
+        bits_[cell / 64] |= std::uint64_t{1} << cell % 64;
+    }
+    first_face_.push_back(static_cast<std::uint32_t>(faces.size()));
+    std::uint32_t before = 0;
+    for (std::size_t i = 0; i < bits_.size(); ++i) {
+        before_[i] = before;
+        before += static_cast<std::uint32_t>(std::popcount(bits_[i]));
+    }
+}
+
+BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
+    : scene_(scene), tree_(scene, seed), boundary_cells_(tree_.faces(), scene.cell_count())
+{
+    if (!scene.is_surface())
+        scene.face_planes();
+    scene.overlapping_cells();
+    seen_.resize(tree_.faces().size());
+    oneapi::tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t i) {
+        if (tree_.group_counts()[i] > 0)
+            set_points(scene, tree_.faces()[i], seen_[i]);
+    });
+}
+
+void BspXmpvo::look_at_faces(const glm::dvec4& eye)
+{
+    const std::span<const CellFace> faces = tree_.faces();
+    const ProjectionCharts charts(scene_.bounds(), eye);
+    roles_.resize(faces.size());
+    groups_left_.assign(tree_.group_counts().begin(), tree_.group_counts().end());
+    is_listed_.assign(boundary_cells_.count(), 0);
+    waiting_head_.assign(boundary_cells_.count(), none);
+    waiting_.clear();
+    boxes_.reset(faces.size(), charts.count());
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, faces.size(), 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            roles_[i] = 0;
+            if (groups_left_[i] == 0)
+                continue;
+            SeenFace& seen = seen_[i];
+            seen.turn = side_of_plane(seen.points[0], seen.points[1], seen.points[2], eye);
+            if (scene_.is_surface())
+                roles_[i] = seen.turn == Sign::zero ? 0 : exit_role | entry_role;
+            else
+                roles_[i] = (signs_.exit(faces[i].cell) >> faces[i].face & 1u) != 0    ? exit_role
+                            : (signs_.entry(faces[i].cell) >> faces[i].face & 1u) != 0 ? entry_role
+                                                                                       : 0;
+            for (int chart = 0; roles_[i] != 0 && chart < charts.count(); ++chart)
+                if (const auto box = charts.box(seen.vertices(), chart))
+                    boxes_.set(i, chart, *box);
+        }
+    });
+    pending_.reset(boxes_, faces.size());
+    pending_count_ = test_count_ = relation_count_ = 0;
+}
+
+bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
+{
+    const CellId front = tree_.faces()[f].cell, back = tree_.faces()[g].cell;
+    if (front == back)
+        return false;
+    if (!scene_.is_surface()) {
+        const auto row = scene_.adjacency().row(front);
+        if (std::find(row.begin(), row.end(), back) != row.end())
+            return false; // the face between them carries the relation
+    }
+    ++test_count_;
+    const Overlap overlap = face_overlap(seen_[f], seen_[g], eye);
+    if (overlap != Overlap::nearer && (overlap != Overlap::coincident || scene_.is_surface()))
+        return false;
+    const auto& overlapping = scene_.overlapping_cells();
+    const std::pair<CellId, CellId> pair = std::minmax(front, back);
+    return !std::binary_search(overlapping.begin(), overlapping.end(), pair);
+}
+
+template <int row, class State>
+bool BspXmpvo::sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order)
+{
+    const CellId cells = scene_.cell_count();
+    state.resize(cells);
+    resize_on_large_pages(order.back_to_front, cells);
+    BspMerge<row, State> merge(*this, state.data(), eye, order);
+    if (merge.run() < cells)
+        return false;
+    order.layer_begin.clear();
+    order.cycles.clear();
+    return true;
+}
+
+void BspXmpvo::sort(const View& view, Order& order)
+{
+    validate(view);
+    if (!scene_.is_surface())
+        signs_.evaluate(scene_, view.eye);
+    look_at_faces(view.eye);
+    const bool complete = scene_.is_surface()                  ? sort_by<0>(small_state_, view.eye, order)
+                          : scene_.adjacency().row_length == 4 ? sort_by<4>(small_state_, view.eye, order)
+                                                               : sort_by<6>(large_state_, view.eye, order);
+    if (!complete)
+        sort_with_cycles(view.eye, order);
+}
+
+void BspXmpvo::sort_with_cycles(const glm::dvec4& eye, Order& order)
+{
+    boundary_relations(scene_, eye, all_relations_);
+    if (scene_.is_surface())
+        topological_sort_.run(scene_, all_relations_.relations, order);
+    else
+        topological_sort_.run(scene_, signs_, all_relations_.relations, order);
+    order.layer_begin.clear();
+}
+
+std::size_t BspXmpvo::bytes() const
+{
+    const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+    return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
+           size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + size_of(seen_) +
+           size_of(waiting_) + boxes_.bytes() + pending_.bytes() + size_of(all_relations_.relations) +
+           topological_sort_.bytes();
+}
+
+std::vector<Statistic> BspXmpvo::statistics() const
+{
+    return {{"nodes", static_cast<double>(tree_.node_count())}, {"splits", static_cast<double>(tree_.split_count())},
+            {"depth", static_cast<double>(tree_.depth())},      {"pending faces", static_cast<double>(pending_count_)},
+            {"pair tests", static_cast<double>(test_count_)},   {"relations", static_cast<double>(relation_count_)}};
+}
+
+std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)
+{
+    return std::make_unique<BspXmpvo>(scene, options.bsp_seed);
+}
+
+} // namespace visorder

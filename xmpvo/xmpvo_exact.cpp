@@ -1,0 +1,45 @@
+#include "xmpvo/xmpvo_exact.h"
+
+#include "sorting/registry.h"
+
+namespace visorder {
+
+XmpvoExact::XmpvoExact(const Scene& scene) : scene_(scene)
+{
+    if (!scene.is_surface()) {
+        scene.face_planes();
+        scene.boundary();
+    }
+    scene.overlapping_cells();
+}
+
+void XmpvoExact::sort(const View& view, Order& order)
+{
+    validate(view);
+    boundary_relations(scene_, view.eye, boundary_);
+    if (scene_.is_surface()) {
+        topological_sort_.run(scene_, boundary_.relations, order);
+        return;
+    }
+    signs_.evaluate(scene_, view.eye);
+    topological_sort_.run(scene_, signs_, boundary_.relations, order);
+}
+
+std::size_t XmpvoExact::bytes() const
+{
+    return signs_.bytes() + topological_sort_.bytes() + boundary_.relations.capacity() * sizeof(Relation) +
+           boundary_.overlapping.capacity() * sizeof(boundary_.overlapping[0]);
+}
+
+std::vector<Statistic> XmpvoExact::statistics() const
+{
+    return {{"candidate pairs", static_cast<double>(boundary_.candidates)},
+            {"relations", static_cast<double>(boundary_.relations.size())}};
+}
+
+std::unique_ptr<Sorter> make_xmpvo_exact(const Scene& scene, const SorterOptions&)
+{
+    return std::make_unique<XmpvoExact>(scene);
+}
+
+} // namespace visorder
