@@ -337,6 +337,23 @@ TEST(Newell, KeepsRelationsThroughFlatCells)
     expect_right_order(scene, "flat cells", small_scene_eyes(scene, 4));
 }
 
+TEST(Newell, KeepsRelationsWhereSquashedMeshesHaveFlatAndInvertedCells)
+{
+    std::size_t flat = 0, inverted = 0;
+    for (std::uint64_t seed = 1; seed <= 100 && !HasFailure(); ++seed) {
+        Mesh mesh = carved_delaunay(8, 40, 0.8, seed);
+        for (std::size_t i = 0; i < mesh.points.size(); i += 1 + seed % 3)
+            mesh.points[i].z = 20;
+        const Scene scene(mesh);
+        flat += scene.orientations().flat;
+        inverted += scene.orientations().inverted;
+        expect_right_order(scene, fmt::format("squashed mesh {}", seed),
+                           some_of(small_scene_eyes(scene, seed), seed, 4));
+    }
+    EXPECT_GT(flat, 100u);
+    EXPECT_GT(inverted, 100u);
+}
+
 TEST(Newell, ListsEveryCellWhereCellsOverlapAndWhereFacesAreCurved)
 {
     Random random(4);
