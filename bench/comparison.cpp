@@ -80,6 +80,12 @@ const SorterInfo& info_of(std::string_view name)
     return *std::find_if(known.begin(), known.end(), [&](const SorterInfo& info) { return name == info.name; });
 }
 
+// In a comparison of all sorters.
+Candidate too_large_for(const SorterInfo& info)
+{
+    return {&info, {}, nullptr, 0, fmt::format("slow on more than {} cells; named in --sorters, it runs", info.up_to)};
+}
+
 Candidate make_candidate(const SorterInfo& info, const Scene& scene, const SorterOptions& options)
 {
     Candidate candidate{&info, {info.structures.begin(), info.structures.end()}, nullptr, 0, {}};
@@ -146,7 +152,9 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
         if (options.sorters.empty() ||
             std::find(options.sorters.begin(), options.sorters.end(), info.name) != options.sorters.end()) {
             progress(fmt::format("{}: preparing {}", source.name, info.name));
-            candidates.push_back(make_candidate(info, scene, options.sorter_options));
+            candidates.push_back(options.sorters.empty() && scene.cell_count() > info.up_to
+                                     ? too_large_for(info)
+                                     : make_candidate(info, scene, options.sorter_options));
         }
 
     progress(fmt::format("{}: traits", source.name));

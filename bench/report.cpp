@@ -4,6 +4,7 @@
 #include "version.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -107,11 +108,20 @@ std::string statistics_of(const Comparison& comparison, const RunResult& first)
 {
     std::string text;
     for (std::size_t i = 0; i < first.statistics.size(); ++i) {
-        std::vector<double> values;
+        std::vector<double> values, shares;
         for (const RunResult& run : comparison.runs)
-            if (run.scene == first.scene && run.sorter == first.sorter)
-                values.push_back(run.statistics[i].value);
-        text += fmt::format("  {:<16}   {} {:.6g}\n", "", first.statistics[i].name, median(std::move(values)));
+            if (run.scene == first.scene && run.sorter == first.sorter) {
+                const Statistic& statistic = run.statistics[i];
+                values.push_back(statistic.value);
+                shares.push_back(statistic.whole > 0 ? 100 * statistic.value / statistic.whole : 0);
+            }
+        const double value = median(std::move(values));
+        const bool is_count = value >= 0 && value < 1e15 && value == std::floor(value);
+        text += fmt::format("  {:<16}   {:<44} {:>15}", "", first.statistics[i].name,
+                            is_count ? with_commas(static_cast<std::size_t>(value)) : fmt::format("{:.6g}", value));
+        if (first.statistics[i].whole > 0)
+            text += fmt::format(" {:>8.3f} %", median(std::move(shares)));
+        text += '\n';
     }
     return text;
 }

@@ -1,6 +1,5 @@
 #include "scene/orientations.h"
 
-#include "scene/exact_predicates.h"
 #include "scene/face_loop.h"
 #include "scene/scene.h"
 
@@ -109,6 +108,12 @@ void inspect_faces(const Scene& scene, const Orientations& orientations, CellId 
 
 } // namespace
 
+Sign orientation_of(const Mesh& mesh, CellId cell)
+{
+    return mesh.shapes[cell] == CellShape::tetrahedron ? orientation_of_tetrahedron(mesh, cell)
+                                                       : orientation_of_zoo_cell(mesh, cell);
+}
+
 Orientations derive_orientations(const Scene& scene)
 {
     const Mesh& mesh = scene.mesh();
@@ -117,10 +122,8 @@ Orientations derive_orientations(const Scene& scene)
     oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<CellId>(0, scene.cell_count(), 4096), [&](const auto& range) {
         for (CellId cell = range.begin(); cell < range.end(); ++cell) {
             Sign sign = Sign::zero;
-            if (mesh.shapes[cell] == CellShape::tetrahedron)
-                sign = orientation_of_tetrahedron(mesh, cell);
-            else if (mesh.shapes[cell] != CellShape::triangle)
-                sign = orientation_of_zoo_cell(mesh, cell);
+            if (mesh.shapes[cell] != CellShape::triangle)
+                sign = orientation_of(mesh, cell);
             result.sign[cell] = static_cast<std::int8_t>(sign);
         }
     });

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "scene/boundary.h"
+#include "scene/exact_predicates.h"
 #include "scene/large_array.h"
+#include "scene/mesh.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,5 +30,8 @@ struct Orientations {
 };
 
 Orientations derive_orientations(const Scene& scene);
+
+/// What Orientations::sign says of one solid cell, from its vertices alone. Exact.
+Sign orientation_of(const Mesh& mesh, CellId cell);
 
 } // namespace visorder

@@ -12,6 +12,7 @@ namespace visorder {
 // Each sorter's room defines how it is made; the registry only knows the names.
 std::unique_ptr<Sorter> make_centroid(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_power(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_newell(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_mpvo(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_xmpvo_exact(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene&, const SorterOptions&);
@@ -28,6 +29,7 @@ std::unique_ptr<Sorter> make_auto(const Scene& scene, const SorterOptions& optio
 
 constexpr std::array for_centroid{Structure::numbering, Structure::centroids};
 constexpr std::array for_power{Structure::numbering, Structure::circumspheres};
+constexpr std::array for_newell{Structure::numbering};
 constexpr std::array for_mpvo{Structure::numbering, Structure::adjacency, Structure::orientations,
                               Structure::face_planes};
 constexpr std::array for_boundary_relations{Structure::numbering, Structure::adjacency,   Structure::orientations,
@@ -48,6 +50,12 @@ constexpr std::array infos
                    "Edelsbrunner 1989; Max, Williams, Silva 2000",
                    "never by guarantee: right on Delaunay meshes without ties, up to the rounding of the keys",
                    for_power},
+        SorterInfo{"newell",
+                   "by the farthest vertex, repaired by tests of whether one cell can obscure another",
+                   "Newell 1974; Max, Williams, Silva 2000",
+                   "where faces are planar, surfaces too",
+                   for_newell,
+                   30'000},
         SorterInfo{"mpvo", "topological sort over the relations across interior faces", "Williams 1992",
                    "on convex meshes", for_mpvo},
         SorterInfo{"xmpvo-exact",
@@ -65,8 +73,8 @@ constexpr std::array infos
 
 constexpr std::array makers
 {
-    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_xmpvo_exact}, Make{make_bsp_xmpvo},
-        Make{make_auto},
+    Make{make_centroid}, Make{make_power}, Make{make_newell}, Make{make_mpvo}, Make{make_xmpvo_exact},
+        Make{make_bsp_xmpvo}, Make{make_auto},
 #if defined(VISORDER_WITH_VTK)
         Make{make_vtk_cell_center},
 #endif

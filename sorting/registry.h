@@ -2,6 +2,7 @@
 
 #include "sorting/sorter.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,10 +26,11 @@ struct SorterOptions {
 /// What there is to know of a sorter before making one.
 struct SorterInfo {
     const char* name;
-    const char* summary;                   ///< one line
-    const char* source;                    ///< the paper or program it comes from
-    const char* exact_when;                ///< on which scenes it is exact
-    std::span<const Structure> structures; ///< what it asks its Scene to derive
+    const char* summary;                               ///< one line
+    const char* source;                                ///< the paper or program it comes from
+    const char* exact_when;                            ///< on which scenes it is exact
+    std::span<const Structure> structures;             ///< what it asks its Scene to derive
+    CellId up_to = std::numeric_limits<CellId>::max(); ///< cells beyond which it is too slow to run unless asked for
 };
 
 /// Every sorter of this build, in the order tables show them.

@@ -26,6 +26,7 @@ const char* name(Guarantee guarantee);
 struct Statistic {
     const char* name; ///< with its unit, where it has one
     double value;
+    double whole = 0; ///< that it is a part of, or 0
 };
 
 /// One way of ordering the cells of one scene. Holds a reference to its Scene, which must outlive it. One `sort` at a

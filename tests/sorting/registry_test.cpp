@@ -23,7 +23,7 @@ TEST(Registry, MakesEverySorterItLists)
         EXPECT_EQ(order.back_to_front.size(), scene.cell_count()) << info.name;
         EXPECT_GT(sorter->bytes(), 0u) << info.name;
     }
-    for (const char* name : {"centroid", "power", "mpvo", "auto"})
+    for (const char* name : {"centroid", "power", "newell", "mpvo", "auto"})
         EXPECT_EQ(names.count(name), 1u) << name;
 }
 
