@@ -13,6 +13,7 @@ namespace visorder {
 std::unique_ptr<Sorter> make_centroid(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_power(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_mpvo(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_mpvo_nc(const Scene&, const SorterOptions&);
 #if defined(VISORDER_WITH_VTK)
 std::unique_ptr<Sorter> make_vtk_cell_center(const Scene&, const SorterOptions&);
 #endif
@@ -28,6 +29,8 @@ constexpr std::array for_centroid{Structure::numbering, Structure::centroids};
 constexpr std::array for_power{Structure::numbering, Structure::circumspheres};
 constexpr std::array for_mpvo{Structure::numbering, Structure::adjacency, Structure::orientations,
                               Structure::face_planes};
+constexpr std::array for_boundary_and_planes{Structure::numbering, Structure::adjacency, Structure::orientations,
+                                             Structure::face_planes, Structure::boundary};
 constexpr std::array for_auto{Structure::numbering, Structure::adjacency, Structure::orientations, Structure::boundary,
                               Structure::traits};
 #if defined(VISORDER_WITH_VTK)
@@ -46,6 +49,8 @@ constexpr std::array infos
                    for_power},
         SorterInfo{"mpvo", "topological sort over the relations across interior faces", "Williams 1992",
                    "on convex meshes", for_mpvo},
+        SorterInfo{"mpvo-nc", "depth-first from the front-facing boundary, farthest first, across interior faces",
+                   "Williams 1992", "on convex meshes", for_boundary_and_planes},
         SorterInfo{"auto", "the cheapest sorter that is exact for the scene, else the best there is",
                    "traits of the scene", "where the sorter it stands for is", for_auto},
 #if defined(VISORDER_WITH_VTK)
@@ -56,7 +61,7 @@ constexpr std::array infos
 
 constexpr std::array makers
 {
-    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_auto},
+    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_mpvo_nc}, Make{make_auto},
 #if defined(VISORDER_WITH_VTK)
         Make{make_vtk_cell_center},
 #endif
