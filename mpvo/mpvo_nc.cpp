@@ -14,10 +14,15 @@ namespace visorder {
 
 namespace {
 
-// A cell's state: before it is reached, its interior exit faces as bits; then one of these.
-constexpr std::uint8_t open = 0x40; // on the path, or about to be
-constexpr std::uint8_t done = 0x80; // listed
-constexpr std::size_t prefetch_sources = 8;
+constexpr std::size_t prefetch_sources = 8; // their neighbours; they themselves twice as far ahead
+
+// Plain x86-64 has no instruction for this, and a library call a cell is slow.
+std::uint32_t bits_set(std::uint32_t byte)
+{
+    byte -= byte >> 1 & 0x55u;
+    byte = (byte & 0x33u) + (byte >> 2 & 0x33u);
+    return (byte + (byte >> 4)) & 0x0fu;
+}
 
 template <class Body>
 void in_parallel(std::size_t count, const Body& body)
@@ -80,67 +85,115 @@ void MpvoNc::sort_sources(const View& view)
     radix_sort_.sort(keys_, owners_, sources_);
 }
 
-// Lists every cell after all those it obstructs, and returns whether one of them obstructs it in turn.
-template <int row>
-bool MpvoNc::list_depth_first()
+// The turn of a source lists what it obstructs and no farther source does. So the sets of all turns, last first, are
+// what comes free when the boundary's front-facing faces are taken away nearest first, and the entry faces of a cell
+// with the cell before them: it is free with its last entry face. Within a turn, cells are taken first come, first
+// served, without branches on sides or counts, which a walk down and up again would guess wrong at every other face.
+//
+// A cell's state holds its interior exit faces in the lowest `row` bits, and above them how many entry faces are left.
+template <int row, class State>
+std::size_t MpvoNc::list(State* const state)
 {
+    constexpr State one = State{1} << row;
     const CellId cells = scene_.cell_count();
     const CellId* const neighbour = scene_.adjacency().neighbour.data();
-    // Local: a store of a byte may change anything that is not.
-    std::uint8_t* const state = state_.data();
-    std::uint64_t* const path = path_.data();
-    CellId* listed = listed_.data();
-    bool cycles = false;
-
+    CellId* const listed = listed_.data();
+    std::size_t begin = 0, end = 0;
     const auto row_of = [&](CellId cell) { return neighbour + std::size_t{cell} * row; };
-    const auto traverse = [&](CellId source) {
-        std::size_t depth = 0;
-        CellId cell = source;
-        std::uint32_t exits = state[cell];
-        const CellId* across = row_of(cell);
-        state[cell] = open;
-        for (;;) {
-            while (exits != 0) {
-                const CellId next = across[std::countr_zero(exits)];
-                exits &= exits - 1;
-                const std::uint8_t s = state[next];
-                if (s >= open) {
-                    cycles |= s == open;
-                    continue;
-                }
-                path[depth++] = std::uint64_t{cell} << 8 | exits;
-                cell = next;
-                exits = s;
-                state[cell] = open;
-                across = row_of(cell);
-                for (int f = 0; f < row; ++f) {
-                    __builtin_prefetch(state + across[f], 1);
-                    __builtin_prefetch(row_of(across[f]));
-                }
+    const auto list_what_is_free = [&] {
+        for (; begin < end; ++begin) {
+            const CellId cell = listed[begin];
+            const State exits = state[cell];
+            const CellId* const across = row_of(cell);
+            for (int f = 0; f < row; ++f) {
+                const CellId behind = across[f];
+                const auto exit = static_cast<State>(exits >> f & 1u);
+                const auto left = static_cast<State>(state[behind] - (exit << row));
+                state[behind] = left;
+                listed[end] = behind;
+                end += static_cast<std::size_t>(left < one) & exit;
+                __builtin_prefetch(row_of(behind));
             }
-            state[cell] = done;
-            *listed++ = cell;
-            if (depth == 0)
-                return;
-            const std::uint64_t back = path[--depth];
-            cell = static_cast<CellId>(back >> 8);
-            exits = back & 0xffu;
-            across = row_of(cell);
         }
     };
-    for (std::size_t i = 0; i < sources_.size(); ++i) {
-        if (i + prefetch_sources < sources_.size()) {
-            __builtin_prefetch(state + sources_[i + prefetch_sources], 1);
-            __builtin_prefetch(row_of(sources_[i + prefetch_sources]));
-        }
-        if (state[sources_[i]] < open)
-            traverse(sources_[i]);
-    }
-    // Cells in front of all they meet that the eye sees edge-on, and cycles off the boundary.
+
+    // In front of all they meet, and no face of theirs in front: seen edge-on.
     for (CellId cell = 0; cell < cells; ++cell)
-        if (state[cell] < open)
-            traverse(cell);
-    return cycles;
+        if (state[cell] < one)
+            listed[end++] = cell;
+    list_what_is_free();
+    for (std::size_t i = source_count_; i-- > 0;) {
+        if (i >= 2 * prefetch_sources) {
+            __builtin_prefetch(state + sources_[i - 2 * prefetch_sources], 1);
+            __builtin_prefetch(row_of(sources_[i - 2 * prefetch_sources]));
+            const CellId* const soon = row_of(sources_[i - prefetch_sources]);
+            for (int f = 0; f < row; ++f) {
+                __builtin_prefetch(state + soon[f], 1);
+                __builtin_prefetch(row_of(soon[f]));
+            }
+        }
+        const CellId source = sources_[i];
+        state[source] = static_cast<State>(state[source] - one);
+        if (state[source] < one) {
+            listed[end++] = source;
+            list_what_is_free();
+        }
+    }
+    return end;
+}
+
+template <int row, class State>
+void MpvoNc::count_entry_faces(State* state)
+{
+    const Adjacency& adjacency = scene_.adjacency();
+    in_parallel(scene_.cell_count(), [&](std::size_t i) {
+        const auto cell = static_cast<CellId>(i);
+        const std::uint32_t interior = adjacency.interior[i];
+        state[i] = static_cast<State>((signs_.exit(cell) & interior) | bits_set(signs_.entry(cell) & interior) << row);
+    });
+    for (std::size_t i = 0; i < source_count_; ++i)
+        state[sources_[i]] = static_cast<State>(state[sources_[i]] + (1u << row));
+}
+
+// Takes the relations within cycles out of the states: those between the sets keep their order, and no cell waits for
+// itself.
+template <int row, class State>
+void MpvoNc::cut_cycles(State* state, const std::vector<std::vector<CellId>>& cycles) const
+{
+    const std::span<const CellId> caller_cells = scene_.caller_cells();
+    std::vector<std::uint32_t> set_of(scene_.cell_count(), 0); // by the caller's number; 0 in no cycle
+    for (std::size_t i = 0; i < cycles.size(); ++i)
+        for (CellId cell : cycles[i])
+            set_of[cell] = static_cast<std::uint32_t>(i + 1);
+    for (CellId cell = 0; cell < scene_.cell_count(); ++cell) {
+        const std::uint32_t set = set_of[caller_cells[cell]];
+        if (set == 0)
+            continue;
+        const std::span<const CellId> across = scene_.adjacency().row(cell);
+        for (std::size_t f = 0; f < row; ++f) {
+            if (across[f] == cell || set_of[caller_cells[across[f]]] != set)
+                continue;
+            const std::uint32_t entry = signs_.entry(cell) >> f & 1u;
+            state[cell] = static_cast<State>((state[cell] & ~(1u << f)) - (entry << row));
+        }
+    }
+}
+
+template <int row, class State>
+void MpvoNc::sort_by(LargeArray<State>& state, Order& order)
+{
+    const CellId cells = scene_.cell_count();
+    state.resize(cells);
+    listed_.resize(std::size_t{cells} + 1); // one to write what is not free to
+    order.cycles.clear();
+    count_entry_faces<row>(state.data());
+    if (list<row>(state.data()) == cells)
+        return;
+    topological_sort_.run(scene_, signs_, {}, order_of_cycles_);
+    order.cycles = order_of_cycles_.cycles;
+    count_entry_faces<row>(state.data());
+    cut_cycles<row>(state.data(), order.cycles);
+    list<row>(state.data());
 }
 
 void MpvoNc::sort(const View& view, Order& order)
@@ -148,34 +201,24 @@ void MpvoNc::sort(const View& view, Order& order)
     validate(view);
     signs_.evaluate(scene_, view.eye);
     sort_sources(view);
-    const Adjacency& adjacency = scene_.adjacency();
-    const CellId cells = scene_.cell_count();
-    state_.resize(cells);
-    path_.resize(cells);
-    listed_.resize(cells);
-    in_parallel(cells, [&](std::size_t i) {
-        const auto cell = static_cast<CellId>(i);
-        state_[i] = static_cast<std::uint8_t>(signs_.exit(cell) & adjacency.interior[i]);
-    });
-    const bool cycles = adjacency.row_length == 4 ? list_depth_first<4>() : list_depth_first<6>();
+    if (scene_.adjacency().row_length == 4)
+        sort_by<4>(small_state_, order);
+    else
+        sort_by<6>(large_state_, order);
 
+    const CellId cells = scene_.cell_count();
     order.layer_begin.clear();
-    order.cycles.clear();
     resize_on_large_pages(order.back_to_front, cells);
     const std::span<const CellId> caller_cells = scene_.caller_cells();
-    in_parallel(cells, [&](std::size_t i) { order.back_to_front[i] = caller_cells[listed_[i]]; });
-    if (cycles) {
-        topological_sort_.run(scene_, signs_, {}, order_of_cycles_);
-        order.cycles = order_of_cycles_.cycles;
-    }
+    in_parallel(cells, [&](std::size_t i) { order.back_to_front[cells - 1 - i] = caller_cells[listed_[i]]; });
 }
 
 std::size_t MpvoNc::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return size_of(owners_) + size_of(centres_) + signs_.bytes() + radix_sort_.bytes() + size_of(keys_) +
-           size_of(sources_) + size_of(state_) + size_of(path_) + size_of(listed_) + topological_sort_.bytes() +
-           size_of(order_of_cycles_.back_to_front);
+           size_of(sources_) + size_of(small_state_) + size_of(large_state_) + size_of(listed_) +
+           topological_sort_.bytes() + size_of(order_of_cycles_.back_to_front);
 }
 
 std::vector<Statistic> MpvoNc::statistics() const

@@ -33,8 +33,14 @@ public:
 
 private:
     void sort_sources(const View& view);
-    template <int row>
-    bool list_depth_first();
+    template <int row, class State>
+    void sort_by(LargeArray<State>& state, Order& order);
+    template <int row, class State>
+    void count_entry_faces(State* state);
+    template <int row, class State>
+    std::size_t list(State* state);
+    template <int row, class State>
+    void cut_cycles(State* state, const std::vector<std::vector<CellId>>& cycles) const;
 
     const Scene& scene_;
     std::vector<CellId> owners_;     // of the boundary faces
@@ -44,8 +50,8 @@ private:
     std::vector<std::uint32_t> keys_;
     std::vector<CellId> sources_; // owners of front-facing faces, farthest first, and after them all other owners
     std::size_t source_count_ = 0;
-    LargeArray<std::uint8_t> state_;
-    LargeArray<std::uint64_t> path_;
+    LargeArray<std::uint8_t> small_state_;  // of a tetrahedron
+    LargeArray<std::uint16_t> large_state_; // of any other cell
     LargeArray<CellId> listed_;
     TopologicalSort topological_sort_; // used only where there are cycles
     Order order_of_cycles_;
