@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -58,26 +57,18 @@ Guarantee MpvoNc::guarantee() const
 
 void MpvoNc::sort_sources(const View& view)
 {
-    const FacePlanes& planes = scene_.face_planes();
     const std::vector<CellFace>& faces = scene_.boundary().faces;
-    // The squared distance, |w| (|c|^2 - 2 c.e / w + |e|^2 / w^2), without its last term, which all have in common: it
-    // neither overflows nor drowns the others for an eye far away, and along a direction the distance is left. With
-    // centres and eye scaled into a cube of half-width 1 the rest is above -6, and 8 more makes its bits ascend with
-    // it.
-    glm::dvec3 eye(view.eye);
-    double w = view.eye.w;
-    const double before = 1 / std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z), std::abs(w)});
-    eye = (eye * before - planes.origin * (w *= before)) * planes.scale;
-    const double largest = std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z), std::abs(w)});
-    const double scale = (w < 0 ? -1 : 1) / (largest > 0 ? largest : 1);
-    eye *= scale;
-    w *= scale;
+    // The squared distance, times w: w |c|^2 - 2 c.e + |e|^2 / w, without its last term, which all have in common. What
+    // is left neither overflows nor drowns for an eye far away, and along a direction it is the distance. With centres
+    // in a cube of half-width 1, and e not above 2, it is above -12; 16 more makes its bits ascend with it.
+    const glm::dvec4 unit = unit_eye(scene_.face_planes(), view.eye);
+    const glm::dvec3 eye(unit);
 
     keys_.resize(faces.size());
     sources_.resize(faces.size());
     in_parallel(faces.size(), [&](std::size_t i) {
         const glm::dvec3 c(centres_[i]);
-        const auto distance = static_cast<float>(w * glm::dot(c, c) - 2 * glm::dot(c, eye) + 8);
+        const auto distance = static_cast<float>(unit.w * glm::dot(c, c) - 2 * glm::dot(c, eye) + 16);
         const bool front_facing = (signs_.entry(faces[i].cell) >> faces[i].face & 1u) != 0;
         keys_[i] = front_facing ? ~std::bit_cast<std::uint32_t>(distance) : ~0u;
     });

@@ -14,6 +14,7 @@ std::unique_ptr<Sorter> make_centroid(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_power(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_mpvo(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_mpvo_nc(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_xmpvo(const Scene&, const SorterOptions&);
 #if defined(VISORDER_WITH_VTK)
 std::unique_ptr<Sorter> make_vtk_cell_center(const Scene&, const SorterOptions&);
 #endif
@@ -51,6 +52,8 @@ constexpr std::array infos
                    "on convex meshes", for_mpvo},
         SorterInfo{"mpvo-nc", "depth-first from the front-facing boundary, farthest first, across interior faces",
                    "Williams 1992", "on convex meshes", for_boundary_and_planes},
+        SorterInfo{"xmpvo", "mpvo, and relations between boundary cells by shooting rays",
+                   "Silva, Mitchell, Williams 1998", "on convex meshes", for_boundary_and_planes},
         SorterInfo{"auto", "the cheapest sorter that is exact for the scene, else the best there is",
                    "traits of the scene", "where the sorter it stands for is", for_auto},
 #if defined(VISORDER_WITH_VTK)
@@ -61,7 +64,7 @@ constexpr std::array infos
 
 constexpr std::array makers
 {
-    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_mpvo_nc}, Make{make_auto},
+    Make{make_centroid}, Make{make_power}, Make{make_mpvo}, Make{make_mpvo_nc}, Make{make_xmpvo}, Make{make_auto},
 #if defined(VISORDER_WITH_VTK)
         Make{make_vtk_cell_center},
 #endif
