@@ -15,7 +15,7 @@ namespace visorder {
 
 namespace {
 
-constexpr double pulled_in = 1.0 / 64;   // of the way from a corner to the centre
+constexpr double pulled_in = 1.0 / 1024;   // of the way from a corner to the centre
 constexpr double beside = 1.0 / 1024;    // a crossing, of the shorter edge's length
 constexpr double least_beside = 0x1p-19; // a few roundings of single precision
 constexpr double nearly_parallel = 1e-9; // the sine of their angle: no telling where such edges cross

@@ -7,10 +7,12 @@
 #include "scene/error.h"
 #include "scene/face_loop.h"
 #include "scene/subdivision.h"
+#include "tests/mpvo/interior_relations.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <limits>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <set>
 #include <utility>
@@ -24,40 +26,6 @@ std::vector<NamedView> all_views(const Scene& scene)
     for (NamedView& view : random_views(scene, 6, 2, {64, 64}))
         views.push_back(std::move(view));
     return views;
-}
-
-std::set<std::pair<CellId, CellId>> pairs_in(const std::vector<std::vector<CellId>>& sets)
-{
-    std::set<std::pair<CellId, CellId>> pairs;
-    for (const auto& set : sets)
-        for (CellId a : set)
-            for (CellId b : set)
-                pairs.emplace(a, b);
-    return pairs;
-}
-
-// Held against every interior face, decided one by one.
-void expect_interior_relations(const Scene& scene, const glm::dvec4& eye, const Order& order)
-{
-    std::vector<std::size_t> position(scene.cell_count(), scene.cell_count());
-    for (std::size_t i = 0; i < order.back_to_front.size(); ++i)
-        position[order.back_to_front[i]] = i;
-    const auto in_cycle = pairs_in(order.cycles);
-    const auto caller = scene.caller_cells();
-    std::size_t wrong = 0;
-    for (CellId cell = 0; cell < scene.cell_count(); ++cell) {
-        ASSERT_LT(position[caller[cell]], scene.cell_count()) << "not listed: " << caller[cell];
-        const auto row = scene.adjacency().row(cell);
-        for (int f = 0; f < face_count(scene.mesh().shapes[cell]); ++f) {
-            const CellId behind = row[static_cast<std::size_t>(f)];
-            if (behind == cell || exact_face_side(scene, cell, f, eye) != Sign::negative)
-                continue;
-            wrong += position[caller[behind]] > position[caller[cell]] &&
-                     in_cycle.count({caller[cell], caller[behind]}) == 0;
-        }
-    }
-    EXPECT_EQ(wrong, 0u);
-    EXPECT_EQ(order.back_to_front.size(), scene.cell_count());
 }
 
 TEST(MpvoNc, OrdersEveryConvexSceneFromEveryHardView)
@@ -187,6 +155,8 @@ TEST(MpvoNc, GivesOneOrderForAnyNumberOfThreads)
         for (const NamedView& view : random_views(scene, 2, 4, {64, 64})) {
             oneapi::tbb::task_arena(1).execute([&] { first.sort(view.view, expected); });
             for (int threads = 1; threads <= 4; ++threads) {
+                const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                                        static_cast<std::size_t>(threads));
                 MpvoNc sorter(scene);
                 oneapi::tbb::task_arena(threads).execute([&] { sorter.sort(view.view, order); });
                 EXPECT_EQ(order.back_to_front, expected.back_to_front) << view.name << ", " << threads << " threads";
