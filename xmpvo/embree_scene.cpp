@@ -50,16 +50,20 @@ Element* new_buffer(RTCDevice device, const Geometry& geometry, RTCBufferType ty
 // What Embree hands to `record`: its own part first.
 struct Shot {
     RTCIntersectContext context;
-    std::vector<RayHit>* hits;
+    std::vector<RayHit>* hits; // of each ray
 };
 
 // Rejects every hit, so that the ray goes on to the next.
 void record(const RTCFilterFunctionNArguments* arguments)
 {
-    // Rays are shot one at a time.
     const auto* shot = reinterpret_cast<const Shot*>(arguments->context);
-    shot->hits->push_back({RTCRayN_tfar(arguments->ray, 1, 0), RTCHitN_primID(arguments->hit, 1, 0)});
-    arguments->valid[0] = 0;
+    const unsigned int n = arguments->N;
+    for (unsigned int i = 0; i < n; ++i)
+        if (arguments->valid[i] != 0) {
+            shot->hits[RTCRayN_id(arguments->ray, n, i)].push_back(
+                {RTCRayN_tfar(arguments->ray, n, i), RTCHitN_primID(arguments->hit, n, i)});
+            arguments->valid[i] = 0;
+        }
 }
 
 } // namespace
@@ -110,31 +114,39 @@ EmbreeScene::EmbreeScene(const BoundarySurface& surface)
     throw_if_failed(device, "build the scene");
 }
 
-void EmbreeScene::shoot(const glm::vec3& origin, const glm::vec3& direction, std::vector<RayHit>& hits) const
+void EmbreeScene::shoot(std::span<const Ray> rays, std::array<std::vector<RayHit>, most_rays>& hits) const
 {
-    hits.clear();
+    static_assert(most_rays == 4);
     Shot shot;
     rtcInitIntersectContext(&shot.context);
-    shot.hits = &hits;
-    RTCRayHit ray{};
-    ray.ray.org_x = origin.x;
-    ray.ray.org_y = origin.y;
-    ray.ray.org_z = origin.z;
-    ray.ray.dir_x = direction.x;
-    ray.ray.dir_y = direction.y;
-    ray.ray.dir_z = direction.z;
-    ray.ray.tnear = 0;
-    ray.ray.tfar = std::numeric_limits<float>::infinity();
-    ray.ray.mask = ~0u;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_.get(), &shot.context, &ray);
+    shot.hits = hits.data();
+    alignas(16) RTCRayHit4 packet{};
+    alignas(16) std::array<int, 4> valid{};
+    for (unsigned int i = 0; i < rays.size(); ++i) {
+        const glm::vec3 origin(rays[i].origin), direction(rays[i].direction);
+        valid[i] = -1;
+        packet.ray.org_x[i] = origin.x;
+        packet.ray.org_y[i] = origin.y;
+        packet.ray.org_z[i] = origin.z;
+        packet.ray.dir_x[i] = direction.x;
+        packet.ray.dir_y[i] = direction.y;
+        packet.ray.dir_z[i] = direction.z;
+        packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        packet.ray.mask[i] = ~0u;
+        packet.ray.id[i] = i;
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        hits[i].clear();
+    }
+    rtcIntersect4(valid.data(), scene_.get(), &shot.context, &packet);
     // A ray through the diagonal of a quadrilateral may meet both of its halves.
     const auto ascending = [](const RayHit& a, const RayHit& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
     };
-    std::sort(hits.begin(), hits.end(), ascending);
     const auto same_face = [](const RayHit& a, const RayHit& b) { return a.face == b.face; };
-    hits.erase(std::unique(hits.begin(), hits.end(), same_face), hits.end());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        std::sort(hits[i].begin(), hits[i].end(), ascending);
+        hits[i].erase(std::unique(hits[i].begin(), hits[i].end(), same_face), hits[i].end());
+    }
 }
 
 } // namespace visorder

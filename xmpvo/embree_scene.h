@@ -1,12 +1,14 @@
 #pragma once
 
 #include "xmpvo/boundary_surface.h"
+#include "xmpvo/ray_set.h"
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 struct RTCDeviceTy;
@@ -27,9 +29,9 @@ class EmbreeScene {
 public:
     explicit EmbreeScene(const BoundarySurface& surface);
 
-    /// All faces that the ray from `origin` along `direction` meets, nearest first, each once; reuses the memory of
-    /// `hits`. What grazes an edge, or a face seen edge-on, may be missed or found.
-    void shoot(const glm::vec3& origin, const glm::vec3& direction, std::vector<RayHit>& hits) const;
+    /// All faces that each of a few rays meets, nearest first, each once; reuses the memory of `hits`. What grazes an
+    /// edge, or a face seen edge-on, may be missed or found.
+    void shoot(std::span<const Ray> rays, std::array<std::vector<RayHit>, most_rays>& hits) const;
 
     /// What Embree holds.
     std::size_t bytes() const { return static_cast<std::size_t>(held_->load()); }

@@ -3,6 +3,7 @@
 #include "scene/box_hierarchy.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,7 +16,7 @@ namespace visorder {
 
 namespace {
 
-constexpr double pulled_in = 1.0 / 1024;   // of the way from a corner to the centre
+constexpr double pulled_in = 1.0 / 1024; // of the way from a corner to the centre
 constexpr double beside = 1.0 / 1024;    // a crossing, of the shorter edge's length
 constexpr double least_beside = 0x1p-19; // a few roundings of single precision
 constexpr double nearly_parallel = 1e-9; // the sine of their angle: no telling where such edges cross
@@ -131,7 +132,7 @@ private:
 using Segment = Chart::Segment;
 
 // Visits the four points beside the crossing of two segments, if they do cross.
-bool visit_crossing(const Chart& chart, const Segment& s, const Segment& t, const VisitTarget& visit)
+bool visit_crossing(const Chart& chart, const Segment& s, const Segment& t, const VisitTargets& visit)
 {
     if (s.point_a == t.point_a || s.point_a == t.point_b || s.point_b == t.point_a || s.point_b == t.point_b)
         return false;
@@ -145,11 +146,11 @@ bool visit_crossing(const Chart& chart, const Segment& s, const Segment& t, cons
     if (part_of_s < 0 || part_of_s > 1 || part_of_t < 0 || part_of_t > 1)
         return false;
     const double distance = std::max(beside * std::min(length_s, length_t), least_beside);
-    for (const double sign : {1.0, -1.0}) {
-        const glm::dvec2 between = glm::normalize(along_s / length_s + sign * along_t / length_t) * distance;
-        visit(chart.point(s, part_of_s, between));
-        visit(chart.point(s, part_of_s, -between));
-    }
+    const glm::dvec2 unit_s = along_s / length_s, unit_t = along_t / length_t;
+    const glm::dvec2 between = glm::normalize(unit_s + unit_t) * distance;
+    const glm::dvec2 other = glm::normalize(unit_s - unit_t) * distance;
+    visit(std::array{chart.point(s, part_of_s, between), chart.point(s, part_of_s, other),
+                     chart.point(s, part_of_s, -between), chart.point(s, part_of_s, -other)});
     return true;
 }
 
@@ -176,7 +177,7 @@ std::optional<Ray> RaysFromEye::through(const glm::dvec3& target) const
     return Ray{target - direction * back, direction};
 }
 
-void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, const VisitTarget& visit)
+void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, const VisitTargets& visit)
 {
     in_parallel(surface.faces.size(), 64, [&](std::size_t face) {
         if (sides[face] == Sign::zero)
@@ -186,14 +187,17 @@ void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, co
         for (std::uint32_t corner : corners)
             centre += surface.points[corner];
         centre /= static_cast<double>(corners.size());
-        visit(centre);
-        for (std::uint32_t corner : corners)
-            visit(surface.points[corner] + (centre - surface.points[corner]) * pulled_in);
+        std::array<glm::dvec3, 5> targets{centre};
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            targets[i + 1] = surface.points[corners[i]] + (centre - surface.points[corners[i]]) * pulled_in;
+        visit(std::span(targets).first(most_rays));
+        if (corners.size() == most_rays)
+            visit(std::span(targets).subspan(most_rays));
     });
 }
 
 Silhouette visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
-                           const VisitTarget& visit)
+                           const VisitTargets& visit)
 {
     std::vector<std::uint32_t> edges;
     for (std::uint32_t i = 0; i < surface.edges.size(); ++i)

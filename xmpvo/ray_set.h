@@ -32,11 +32,14 @@ private:
     glm::dvec4 eye_;
 };
 
-/// A point that a ray is to be shot through; called by several threads at once.
-using VisitTarget = std::function<void(const glm::dvec3& target)>;
+/// How many rays near to each other are shot together.
+inline constexpr std::size_t most_rays = 4;
+
+/// Takes up to `most_rays` points that rays are to be shot through; called by several threads at once.
+using VisitTargets = std::function<void(std::span<const glm::dvec3> targets)>;
 
 /// Visits the centre of every face that is not edge-on, and its corners, pulled in.
-void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, const VisitTarget& visit);
+void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, const VisitTargets& visit);
 
 /// How much there was to visit.
 struct Silhouette {
@@ -49,6 +52,6 @@ struct Silhouette {
 /// same crossings). Takes time by the number of crossings and of boxes around edges that meet. Rounded; a crossing at
 /// an edge's end may be visited or not.
 Silhouette visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
-                           const VisitTarget& visit);
+                           const VisitTargets& visit);
 
 } // namespace visorder

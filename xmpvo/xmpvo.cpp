@@ -5,6 +5,7 @@
 #include "scene/face_overlap.h"
 
 #include <algorithm>
+#include <array>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -16,56 +17,50 @@ namespace {
 
 // Hits so near to each other that single precision may have them in the wrong order.
 constexpr float no_distance = 0x1p-18f;
-constexpr std::size_t least_to_thin_out = 1 << 20;
-
-template <class T>
-void sort_out(std::vector<T>& numbers)
-{
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
+constexpr std::size_t remembered = 1 << 15; // pairs
 
 // What one thread's rays found.
 struct Found {
-    std::vector<RayHit> hits;         // of one ray
+    std::array<std::vector<RayHit>, most_rays> hits;
     std::vector<std::uint32_t> left;  // exit faces where a ray left last, at one distance
     std::vector<std::uint32_t> exits; // faces that it meets next, at one distance
     std::vector<std::uint32_t> entries;
     std::vector<std::uint64_t> pairs;
-    std::size_t thin_out_at = least_to_thin_out;
+    // Most rays find what their neighbours did.
+    std::vector<std::uint64_t> latest = std::vector<std::uint64_t>(remembered, ~std::uint64_t{0});
     std::size_t ray_count = 0;
     std::size_t hit_count = 0;
 
     void propose(const std::vector<std::uint32_t>& fronts)
     {
         for (std::uint32_t exit : fronts)
-            for (std::uint32_t entry : entries)
-                pairs.push_back(std::uint64_t{exit} << 32 | entry);
+            for (std::uint32_t entry : entries) {
+                const std::uint64_t pair = std::uint64_t{exit} << 32 | entry;
+                std::uint64_t& last = latest[(exit * 0x9e3779b1u ^ entry * 0x85ebca6bu) >> 17];
+                if (last != pair)
+                    pairs.push_back(last = pair);
+            }
     }
 
     // Each exit of the ray is paired with the next entry.
-    void pair_hits(std::span<const Sign> sides)
+    void pair_hits(std::span<const RayHit> hits_of_ray, std::span<const Sign> sides)
     {
         left.clear();
-        for (std::size_t i = 0; i < hits.size();) {
+        for (std::size_t i = 0; i < hits_of_ray.size();) {
             exits.clear();
             entries.clear();
             do {
-                const std::uint32_t face = hits[i].face;
+                const std::uint32_t face = hits_of_ray[i].face;
                 if (sides[face] == Sign::negative)
                     exits.push_back(face);
                 else if (sides[face] == Sign::positive)
                     entries.push_back(face);
                 ++i;
-            } while (i < hits.size() && hits[i].distance <= hits[i - 1].distance + no_distance);
+            } while (i < hits_of_ray.size() && hits_of_ray[i].distance <= hits_of_ray[i - 1].distance + no_distance);
             propose(left);
             propose(exits);
             if (!exits.empty() || !entries.empty())
                 std::swap(left, exits);
-        }
-        if (pairs.size() > thin_out_at) {
-            sort_out(pairs);
-            thin_out_at = std::max(least_to_thin_out, 2 * pairs.size());
         }
     }
 };
@@ -101,15 +96,19 @@ void Xmpvo::shoot(const glm::dvec4& eye)
 {
     const RaysFromEye rays(eye);
     oneapi::tbb::enumerable_thread_specific<Found> found_by_threads;
-    const auto shoot_through = [&](const glm::dvec3& target) {
-        const auto ray = rays.through(target);
-        if (!ray)
-            return;
+    const auto shoot_through = [&](std::span<const glm::dvec3> targets) {
+        std::array<Ray, most_rays> shot;
+        std::size_t count = 0;
+        for (const glm::dvec3& target : targets)
+            if (const auto ray = rays.through(target))
+                shot[count++] = *ray;
         Found& found = found_by_threads.local();
-        embree_.shoot(glm::vec3(ray->origin), glm::vec3(ray->direction), found.hits);
-        found.hit_count += found.hits.size();
-        ++found.ray_count;
-        found.pair_hits(sides_);
+        embree_.shoot(std::span(shot).first(count), found.hits);
+        found.ray_count += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            found.hit_count += found.hits[i].size();
+            found.pair_hits(found.hits[i], sides_);
+        }
     };
     visit_faces(surface_, sides_, shoot_through);
     silhouette_ = rays_ == XmpvoRays::crossings ? visit_crossings(surface_, sides_, eye, shoot_through) : Silhouette{};
@@ -151,7 +150,8 @@ void Xmpvo::confirm(const glm::dvec4& eye)
     relations_.clear();
     for (const std::vector<Relation>& confirmed : confirmed_by_threads)
         relations_.insert(relations_.end(), confirmed.begin(), confirmed.end());
-    sort_out(relations_);
+    std::sort(relations_.begin(), relations_.end());
+    relations_.erase(std::unique(relations_.begin(), relations_.end()), relations_.end());
 }
 
 void Xmpvo::sort(const View& view, Order& order)
