@@ -4,6 +4,7 @@
 #include "bench/views.h"
 #include "checking/order_checker.h"
 #include "mpvo/mpvo.h"
+#include "scene/concurrency.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
 #include "sorting/boundary_relations.h"
@@ -11,8 +12,11 @@
 #include "tests/scene/meshes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <gtest/gtest.h>
+#include <limits>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <string>
 
@@ -173,6 +177,23 @@ TEST(Xmpvo, GivesOneOrderForAnyNumberOfThreads)
             });
         }
     }
+}
+
+// Embree flushes denormal numbers to zero while it works; exact predicates must not.
+TEST(Xmpvo, LeavesThreadsAndTheirArithmeticAsTheyWere)
+{
+    const Scene scene(generate("carved:8000"));
+    const std::size_t threads = concurrency();
+    Xmpvo xmpvo(scene);
+    Order order;
+    xmpvo.sort(random_views(scene, 1, 1, {64, 64}).front().view, order);
+    EXPECT_EQ(concurrency(), threads);
+    std::atomic<int> flushed = 0;
+    oneapi::tbb::parallel_for(0, 1000, [&](int) {
+        const volatile double least = std::numeric_limits<double>::min();
+        flushed += least / 2 == 0;
+    });
+    EXPECT_EQ(flushed, 0);
 }
 
 TEST(Xmpvo, CountsRaysHitsAndRelations)
