@@ -146,28 +146,27 @@ void MpvoNc::count_entry_faces(State* state)
         state[sources_[i]] = static_cast<State>(state[sources_[i]] + (1u << row));
 }
 
-// Takes the relations within cycles out of the states: those between the sets keep their order, and no cell waits for
-// itself.
+// Takes the relations that an order does not satisfy out of the states: the others run in no circle.
 template <int row, class State>
-void MpvoNc::cut_cycles(State* state, const std::vector<std::vector<CellId>>& cycles) const
+void MpvoNc::cut_cycles(State* state, const Order& order) const
 {
     const std::span<const CellId> caller_cells = scene_.caller_cells();
-    std::vector<std::uint32_t> set_of(scene_.cell_count(), 0); // by the caller's number; 0 in no cycle
-    for (std::size_t i = 0; i < cycles.size(); ++i)
-        for (CellId cell : cycles[i])
-            set_of[cell] = static_cast<std::uint32_t>(i + 1);
-    for (CellId cell = 0; cell < scene_.cell_count(); ++cell) {
-        const std::uint32_t set = set_of[caller_cells[cell]];
-        if (set == 0)
-            continue;
-        const std::span<const CellId> across = scene_.adjacency().row(cell);
+    std::vector<std::uint32_t> position(scene_.cell_count()); // by the caller's number
+    for (std::size_t i = 0; i < position.size(); ++i)
+        position[order.back_to_front[i]] = static_cast<std::uint32_t>(i);
+    const Adjacency& adjacency = scene_.adjacency();
+    in_parallel(position.size(), [&](std::size_t i) {
+        const auto cell = static_cast<CellId>(i);
+        const std::span<const CellId> across = adjacency.row(cell);
         for (std::size_t f = 0; f < row; ++f) {
-            if (across[f] == cell || set_of[caller_cells[across[f]]] != set)
-                continue;
-            const std::uint32_t entry = signs_.entry(cell) >> f & 1u;
-            state[cell] = static_cast<State>((state[cell] & ~(1u << f)) - (entry << row));
+            const bool is_nearer = position[caller_cells[cell]] > position[caller_cells[across[f]]];
+            const std::uint32_t bit = 1u << f & adjacency.interior[i];
+            if (is_nearer && (signs_.entry(cell) & bit) != 0)
+                state[i] = static_cast<State>(state[i] - (1u << row));
+            if (!is_nearer && (signs_.exit(cell) & bit) != 0)
+                state[i] = static_cast<State>(state[i] & ~bit);
         }
-    }
+    });
 }
 
 template <int row, class State>
@@ -183,7 +182,7 @@ void MpvoNc::sort_by(LargeArray<State>& state, Order& order)
     topological_sort_.run(scene_, signs_, {}, order_of_cycles_);
     order.cycles = order_of_cycles_.cycles;
     count_entry_faces<row>(state.data());
-    cut_cycles<row>(state.data(), order.cycles);
+    cut_cycles<row>(state.data(), order_of_cycles_);
     list<row>(state.data());
 }
 

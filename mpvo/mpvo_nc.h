@@ -40,7 +40,7 @@ private:
     template <int row, class State>
     std::size_t list(State* state);
     template <int row, class State>
-    void cut_cycles(State* state, const std::vector<std::vector<CellId>>& cycles) const;
+    void cut_cycles(State* state, const Order& order) const;
 
     const Scene& scene_;
     std::vector<CellId> owners_;     // of the boundary faces
