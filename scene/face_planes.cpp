@@ -118,32 +118,15 @@ void fill_block(const Scene& scene, CellId cell, FacePlanes& planes)
     }
 }
 
-// The eye in unit coordinates, scaled so that its largest component is near 1. A positive scale changes no side; a
-// negative weight turns all of them, as the eye's position is then that of (-p, -w).
-struct UnitEye {
+struct SingleEye {
     float x, y, z, w;
     float bound;
 };
 
-UnitEye unit_eye(const FacePlanes& planes, const glm::dvec4& eye)
+SingleEye in_single_precision(const glm::dvec4& eye)
 {
-    glm::dvec3 e(eye);
-    if (eye.w == 1)
-        e -= planes.origin;
-    else if (eye.w != 0)
-        e = {std::fma(-eye.w, planes.origin.x, e.x), std::fma(-eye.w, planes.origin.y, e.y),
-             std::fma(-eye.w, planes.origin.z, e.z)};
-    e *= planes.scale;
-    double w = eye.w;
-    const double largest = std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z), std::abs(w)});
-    // A direction so short that scaling rounds it to nothing is left to the exact predicate.
-    if (largest == 0)
-        return {0, 0, 0, 0, error_bound(e, w)};
-    const double scale = std::ldexp(w < 0 ? -1.0 : 1.0, -std::ilogb(largest));
-    e *= scale;
-    w *= scale;
-    return {static_cast<float>(e.x), static_cast<float>(e.y), static_cast<float>(e.z), static_cast<float>(w),
-            error_bound(e, w)};
+    return {static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z), static_cast<float>(eye.w),
+            error_bound(glm::dvec3(eye), eye.w)};
 }
 
 struct SideBits {
@@ -152,7 +135,7 @@ struct SideBits {
 };
 
 template <int row_length>
-SideBits filter(const float* block, const UnitEye& eye)
+SideBits filter(const float* block, const SingleEye& eye)
 {
     SideBits bits{0, 0};
     for (int f = 0; f < row_length; ++f) {
@@ -166,7 +149,7 @@ SideBits filter(const float* block, const UnitEye& eye)
 
 #if defined(__SSE2__)
 template <>
-SideBits filter<4>(const float* block, const UnitEye& eye)
+SideBits filter<4>(const float* block, const SingleEye& eye)
 {
     const __m128 value = _mm_add_ps(_mm_add_ps(_mm_add_ps(_mm_mul_ps(_mm_load_ps(block), _mm_set1_ps(eye.x)),
                                                           _mm_mul_ps(_mm_load_ps(block + 4), _mm_set1_ps(eye.y))),
@@ -193,7 +176,7 @@ Sign listed_side(const Mesh& mesh, CellId cell, int face, const glm::dvec4& eye)
 }
 
 template <int row_length>
-void evaluate_range(const Scene& scene, const FacePlanes& planes, const UnitEye& unit, const glm::dvec4& eye,
+void evaluate_range(const Scene& scene, const FacePlanes& planes, const SingleEye& unit, const glm::dvec4& eye,
                     const Range& range, std::uint16_t* bits)
 {
     constexpr std::uint32_t all = (1u << row_length) - 1;
@@ -242,6 +225,26 @@ FacePlanes derive_face_planes(const Scene& scene)
     return planes;
 }
 
+// A positive scale changes no side of a face; a negative weight turns all of them, as the eye's position is then that
+// of
+// (-p, -w).
+glm::dvec4 unit_eye(const FacePlanes& planes, const glm::dvec4& eye)
+{
+    glm::dvec3 e(eye);
+    if (eye.w == 1)
+        e -= planes.origin;
+    else if (eye.w != 0)
+        e = {std::fma(-eye.w, planes.origin.x, e.x), std::fma(-eye.w, planes.origin.y, e.y),
+             std::fma(-eye.w, planes.origin.z, e.z)};
+    e *= planes.scale;
+    const double largest = std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z), std::abs(eye.w)});
+    // A direction so short that scaling rounds it to nothing is left to the exact predicate.
+    if (largest == 0)
+        return glm::dvec4(0);
+    const double scale = std::ldexp(eye.w < 0 ? -1.0 : 1.0, -std::ilogb(largest));
+    return {e * scale, eye.w * scale};
+}
+
 Sign exact_face_side(const Scene& scene, CellId cell, int face, const glm::dvec4& eye)
 {
     const Mesh& mesh = scene.mesh();
@@ -274,7 +277,7 @@ Sign exact_face_side(const Scene& scene, CellId cell, int face, const glm::dvec4
 void FaceSigns::evaluate(const Scene& scene, const glm::dvec4& eye)
 {
     const FacePlanes& planes = scene.face_planes();
-    const UnitEye unit = unit_eye(planes, eye);
+    const SingleEye unit = in_single_precision(unit_eye(planes, eye));
     bits_.resize(scene.cell_count());
     oneapi::tbb::parallel_for(Range(0, scene.cell_count(), 16384), [&](const Range& range) {
         if (planes.row_length == 4)

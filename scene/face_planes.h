@@ -28,6 +28,10 @@ struct FacePlanes {
 /// Throws InputError, naming the cell, where a face is not planar, and for a surface scene.
 FacePlanes derive_face_planes(const Scene& scene);
 
+/// The eye in the unit coordinates of `planes`, rounded, and scaled: its weight is not negative, and its largest
+/// component is near 1. All zeros for a direction too short for that.
+glm::dvec4 unit_eye(const FacePlanes& planes, const glm::dvec4& eye);
+
 /// On which side of the plane of face `face` of `cell` the eye lies: `positive` strictly outside of the cell (an entry
 /// face), `negative` strictly inside (an exit face), `zero` edge-on. Exact. Between a flat and a solid cell the side is
 /// taken from the solid one, between flat ones from the vertex order of the one with the lower number in the caller's

@@ -14,6 +14,8 @@ std::unique_ptr<Sorter> make_centroid(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_power(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_newell(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_mpvo(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_mpvo_nc(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_xmpvo(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_xmpvo_exact(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene&, const SorterOptions&);
 #if defined(VISORDER_WITH_VTK)
@@ -32,6 +34,8 @@ constexpr std::array for_power{Structure::numbering, Structure::circumspheres};
 constexpr std::array for_newell{Structure::numbering};
 constexpr std::array for_mpvo{Structure::numbering, Structure::adjacency, Structure::orientations,
                               Structure::face_planes};
+constexpr std::array for_boundary_and_planes{Structure::numbering, Structure::adjacency, Structure::orientations,
+                                             Structure::face_planes, Structure::boundary};
 constexpr std::array for_boundary_relations{Structure::numbering, Structure::adjacency,   Structure::orientations,
                                             Structure::boundary,  Structure::face_planes, Structure::overlapping_cells};
 constexpr std::array for_auto{Structure::numbering, Structure::adjacency, Structure::orientations, Structure::boundary,
@@ -58,6 +62,10 @@ constexpr std::array infos
                    30'000},
         SorterInfo{"mpvo", "topological sort over the relations across interior faces", "Williams 1992",
                    "on convex meshes", for_mpvo},
+        SorterInfo{"mpvo-nc", "depth-first from the front-facing boundary, farthest first, across interior faces",
+                   "Williams 1992", "on convex meshes", for_boundary_and_planes},
+        SorterInfo{"xmpvo", "mpvo, and relations between boundary cells by shooting rays",
+                   "Silva, Mitchell, Williams 1998", "on convex meshes", for_boundary_and_planes},
         SorterInfo{"xmpvo-exact",
                    "topological sort, also over every pair of boundary faces of which one covers the other",
                    "Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000", "always", for_boundary_relations},
@@ -73,8 +81,8 @@ constexpr std::array infos
 
 constexpr std::array makers
 {
-    Make{make_centroid}, Make{make_power}, Make{make_newell}, Make{make_mpvo}, Make{make_xmpvo_exact},
-        Make{make_bsp_xmpvo}, Make{make_auto},
+    Make{make_centroid}, Make{make_power}, Make{make_newell}, Make{make_mpvo}, Make{make_mpvo_nc}, Make{make_xmpvo},
+        Make{make_xmpvo_exact}, Make{make_bsp_xmpvo}, Make{make_auto},
 #if defined(VISORDER_WITH_VTK)
         Make{make_vtk_cell_center},
 #endif
