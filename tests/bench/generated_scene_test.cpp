@@ -1,6 +1,5 @@
 #include "bench/generated_scene.h"
 
-#include "checking/overlapping_cells.h"
 #include "scene/error.h"
 #include "scene/exact_predicates.h"
 #include "scene/scene.h"
