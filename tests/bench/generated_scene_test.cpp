@@ -401,7 +401,7 @@ TEST_P(GeneratedSolidsOf, HasTheTraitsItsFamilyPromises)
 
 TEST_P(GeneratedSolidsOf, HasNoCellsThatOverlap)
 {
-    EXPECT_TRUE(overlapping_cells(Scene(subdivide(generate(specification(2000))).mesh)).empty());
+    EXPECT_TRUE(Scene(subdivide(generate(specification(2000))).mesh).overlapping_cells().empty());
 }
 
 TEST(GeneratedScene, HasNoCycleAcrossFacesUnlessItIsMeantTo)
