@@ -45,9 +45,10 @@ void PendingFaces::reset(const ImageBoxes& boxes, std::size_t faces)
         grid.first_head = heads;
         const glm::dvec2 size = max - min;
         if (count > 0 && size.x > 0 && size.y > 0) {
-            // Squares as large as a face is on average.
+            // Squares twice as large as a face is on average.
             const auto squares = [&](double extent, double of_faces) {
-                return static_cast<std::uint32_t>(std::clamp(extent * count / of_faces, 1.0, std::sqrt(4 * count + 1)));
+                return static_cast<std::uint32_t>(
+                    std::clamp(0.5 * extent * count / of_faces, 1.0, std::sqrt(4 * count + 1)));
             };
             grid.columns = squares(size.x, sizes.x);
             grid.rows = squares(size.y, sizes.y);
