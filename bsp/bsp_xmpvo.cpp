@@ -22,8 +22,8 @@ constexpr std::uint32_t none = 0xffffffffu;
 constexpr std::size_t faces_between_lists = 1024; // that the walk passes before cells that are ready are listed
 constexpr std::uint16_t slab_count = 512;         // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
-constexpr std::size_t prefetch_rows = 16;
-constexpr std::size_t prefetch_states = 6;
+constexpr std::size_t prefetch_rows = 32;
+constexpr std::size_t prefetch_states = 12;
 
 constexpr auto bits_set = [] {
     std::array<std::uint8_t, 1 << max_cell_faces> table{};
@@ -164,7 +164,6 @@ private:
     // cover.
     void pass(std::span<const std::uint32_t> group)
     {
-        const auto listed = [&](std::uint32_t boundary_cell) { return is_listed(boundary_cell); };
         for (std::uint32_t face : group) {
             if ((sorter_.roles_[face] & entry_role) == 0 ||
                 sorter_.groups_left_[face] != sorter_.tree_.group_counts()[face])
@@ -172,7 +171,7 @@ private:
             const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_face(face);
             if (is_listed(boundary_cell))
                 continue;
-            sorter_.pending_.add(face, boundary_cell, listed);
+            sorter_.pending_.add(face);
             ++sorter_.pending_count_;
         }
         for (std::uint32_t face : group)
@@ -372,7 +371,8 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
                 }
             }
         });
-    pending_.reset(boxes_, faces.size());
+    pending_.reset(boxes_, boundary_cells_.of_faces(),
+                   [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
     pending_count_ = test_count_ = relation_count_ = 0;
 }
 

@@ -25,6 +25,7 @@ public:
 
     std::size_t count() const { return first_face_.size() - 1; }
     std::uint32_t of_face(std::uint32_t face) const { return of_face_[face]; }
+    std::span<const std::uint32_t> of_faces() const { return of_face_; }
     /// Of a cell that is one of them.
     std::size_t of_cell(CellId cell) const
     {
