@@ -76,7 +76,7 @@ public:
 
     std::size_t bytes() const
     {
-        return sorted_.capacity() * sizeof(const Extent*) + listed_.bytes() + begin_.capacity() * sizeof(std::size_t);
+        return sorted_.capacity() * sizeof(void*) + listed_.bytes() + begin_.capacity() * sizeof(std::size_t);
     }
 
 private:

@@ -2,8 +2,6 @@
 
 #include "scene/cell_shape.h"
 
-#include <compare>
-
 namespace visorder {
 
 /// One known pair: `front` obstructs `back`, in the inner numbering of a Scene.
@@ -12,7 +10,10 @@ struct Relation {
     CellId back;
 
     friend bool operator==(const Relation&, const Relation&) = default;
-    friend auto operator<=>(const Relation&, const Relation&) = default;
+    friend bool operator<(const Relation& a, const Relation& b)
+    {
+        return a.front != b.front ? a.front < b.front : a.back < b.back;
+    }
 };
 
 } // namespace visorder
