@@ -476,8 +476,8 @@ TEST_P(ExactSorter, RefusesBadEyesAndFacesThatAreNotPlanar)
     EXPECT_THROW(make(of_curved), InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ExactSorter, testing::Values("xmpvo-exact", "bsp-xmpvo"), [](const auto& info) {
-    std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(All, ExactSorter, testing::Values("xmpvo-exact", "bsp-xmpvo"), [](const auto& tested) {
+    std::string name = tested.param;
     std::replace(name.begin(), name.end(), '-', '_');
     return name;
 });
