@@ -224,7 +224,7 @@ TEST(Newell, KeepsRelationsWhereSquashedMeshesHaveFlatAndInvertedCells)
 TEST(Newell, ListsEveryCellWhereCellsOverlapAndWhereFacesAreCurved)
 {
     Random random(4);
-    const Mesh mesh = overlapping_cells(40, 9, 4);
+    Mesh mesh = overlapping_cells(40, 9, 4);
     Mesh curved = mesh;
     for (glm::dvec3& p : curved.points)
         p += random.integer_point(0, 2);
