@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
@@ -17,9 +19,11 @@ namespace {
 constexpr std::uint8_t exit_role = 1;
 constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
-constexpr std::size_t faces_between_lists = 64; // that the walk passes before cells that became ready are listed
-constexpr std::size_t prefetch_rows = 16;
-constexpr std::size_t prefetch_states = 6;
+constexpr std::size_t faces_between_lists = 1024; // that the walk passes before cells that are ready are listed
+constexpr std::uint16_t slab_count = 512;         // of the scene's depth
+constexpr std::uint16_t no_slab = slab_count;
+constexpr std::size_t prefetch_rows = 32;
+constexpr std::size_t prefetch_states = 12;
 
 constexpr auto bits_set = [] {
     std::array<std::uint8_t, 1 << max_cell_faces> table{};
@@ -27,6 +31,39 @@ constexpr auto bits_set = [] {
         table[bits] = static_cast<std::uint8_t>(table[bits / 2] + bits % 2);
     return table;
 }();
+
+// How far from the eye points are, in slabs of the scene's depth: a guess at the order, no decision.
+class Depth {
+public:
+    Depth(const Box& bounds, const glm::dvec4& eye) : eye_(eye)
+    {
+        const glm::dvec3 half = bounds.max * 0.5 - bounds.min * 0.5;
+        const double radius = std::sqrt(glm::dot(half, half));
+        const double middle = of(bounds.middle());
+        const double unit = eye.w == 0 ? std::sqrt(glm::dot(glm::dvec3(eye), glm::dvec3(eye))) : 1.0;
+        nearest_ = eye.w == 0 ? middle - radius * unit : std::max(middle - radius, 0.0);
+        slabs_per_unit_ = slab_count / (middle + radius * unit - nearest_);
+    }
+
+    std::uint16_t slab(const glm::dvec3& point) const
+    {
+        const double slab = (of(point) - nearest_) * slabs_per_unit_;
+        return slab >= slab_count ? slab_count - 1 : slab > 0 ? static_cast<std::uint16_t>(slab) : std::uint16_t{0};
+    }
+
+private:
+    double of(const glm::dvec3& point) const
+    {
+        if (eye_.w == 0)
+            return -glm::dot(glm::dvec3(eye_), point);
+        const glm::dvec3 from_eye = point - glm::dvec3(eye_) / eye_.w;
+        return std::sqrt(glm::dot(from_eye, from_eye));
+    }
+
+    glm::dvec4 eye_;
+    double nearest_ = 0;
+    double slabs_per_unit_ = 0;
+};
 
 // The distinct points of a face with area, as face_overlap wants them: the first three span its plane. `turn` is left
 // to the eye.
@@ -112,18 +149,13 @@ private:
                 State& state = state_[owner(face)];
                 state = static_cast<State>((state + more) | at_boundary);
             }
-        make_room(cells + 1);
+        // A boundary cell can be there twice: when it is ready, and when it may be listed.
+        sorter_.queue_.resize(cells + sorter_.boundary_cells_.count() + 1);
         CellId* const queue = sorter_.queue_.data();
         for (CellId cell = 0; cell < cells; ++cell) {
             queue[ready_] = cell;
             ready_ += ready(state_[cell]);
         }
-    }
-
-    void make_room(std::size_t size)
-    {
-        if (sorter_.queue_.size() < size)
-            sorter_.queue_.resize(size + size / 8);
     }
 
     bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
@@ -132,7 +164,6 @@ private:
     // cover.
     void pass(std::span<const std::uint32_t> group)
     {
-        const auto listed = [&](std::uint32_t boundary_cell) { return is_listed(boundary_cell); };
         for (std::uint32_t face : group) {
             if ((sorter_.roles_[face] & entry_role) == 0 ||
                 sorter_.groups_left_[face] != sorter_.tree_.group_counts()[face])
@@ -140,7 +171,7 @@ private:
             const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_face(face);
             if (is_listed(boundary_cell))
                 continue;
-            sorter_.pending_.add(face, boundary_cell, listed);
+            sorter_.pending_.add(face);
             ++sorter_.pending_count_;
         }
         for (std::uint32_t face : group)
@@ -152,14 +183,39 @@ private:
             }
     }
 
-    // Lists the cells that are ready, and those that become so.
+    // Lists the cells that are ready, and those that become so: cells with boundary exit faces last and farthest first,
+    // when most of what they may cover has been listed.
     void list()
+    {
+        list_queue();
+        while (farthest_ > 0) {
+            std::uint32_t boundary_cell = std::exchange(sorter_.deferred_[farthest_ - 1], none);
+            if (boundary_cell == none) {
+                --farthest_;
+                continue;
+            }
+            while (boundary_cell != none) {
+                const std::uint32_t next = sorter_.next_[boundary_cell];
+                look_for_covered(boundary_cell);
+                boundary_cell = next;
+            }
+            list_queue();
+        }
+    }
+
+    void defer(std::uint32_t boundary_cell)
+    {
+        const std::uint32_t slab = sorter_.slabs_[boundary_cell];
+        sorter_.next_[boundary_cell] = std::exchange(sorter_.deferred_[slab], boundary_cell);
+        farthest_ = std::max<std::size_t>(farthest_, slab + 1);
+    }
+
+    void list_queue()
     {
         // Held in local variables: the compiler takes a store of a byte to change anything that is not local.
         State* const state = state_;
         const CellId* const neighbour = neighbour_;
-        const CellId* queue = sorter_.queue_.data();
-        CellId* to_queue = sorter_.queue_.data();
+        CellId* const queue = sorter_.queue_.data();
         std::size_t ready_end = ready_;
         for (std::size_t at = queue_begin_; at < ready_end; ++at) {
             if (at + prefetch_rows < ready_end) {
@@ -174,14 +230,8 @@ private:
             }
             const CellId cell = queue[at];
             const State s = state[cell];
-            if ((s & at_boundary) != 0) {
-                ready_ = ready_end;
-                const bool listed = list_at_boundary(cell);
-                ready_end = ready_;
-                queue = to_queue = sorter_.queue_.data();
-                if (!listed)
-                    continue;
-            }
+            if ((s & at_boundary) != 0 && !come_to_boundary_cell(cell))
+                continue;
             order_[listed_++] = caller_cells_[cell];
             if constexpr (row > 0) {
                 const CellId* across = neighbour + std::size_t{cell} * row;
@@ -189,7 +239,7 @@ private:
                     const auto holds = static_cast<State>(s >> f & 1u);
                     const auto left = static_cast<State>(state[across[f]] - holds * one);
                     state[across[f]] = left;
-                    to_queue[ready_end] = across[f];
+                    queue[ready_end] = across[f];
                     ready_end += holds & static_cast<State>(ready(left));
                 }
             }
@@ -197,35 +247,54 @@ private:
         queue_begin_ = ready_ = ready_end;
     }
 
-    // Whether a cell that is ready covers no pending face, and is listed; else it waits for the cell of one that it
-    // covers.
-    bool list_at_boundary(CellId cell)
+    // Whether a ready boundary cell is to be listed now: if it has no exit face there, or covers nothing any more.
+    bool come_to_boundary_cell(CellId cell)
     {
-        const std::size_t boundary_cell = sorter_.boundary_cells_.of_cell(cell);
-        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
-        for (std::uint32_t face = begin; face < end; ++face) {
-            if ((sorter_.roles_[face] & exit_role) == 0)
-                continue;
-            const auto listed = [&](std::uint32_t other) { return is_listed(other); };
-            std::uint32_t covered = none;
-            sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
-                if (sorter_.obstructs(face, entry, eye_))
-                    covered = entry;
-                return covered == none;
-            });
-            if (covered == none)
-                continue;
-            ++sorter_.relation_count_;
-            const std::size_t behind = sorter_.boundary_cells_.of_face(covered);
-            sorter_.waiting_.push_back({cell, sorter_.waiting_head_[behind]});
-            sorter_.waiting_head_[behind] = static_cast<std::uint32_t>(sorter_.waiting_.size() - 1);
-            make_room(sorter_.scene_.cell_count() + sorter_.waiting_.size() + 1);
+        const auto boundary_cell = static_cast<std::uint32_t>(sorter_.boundary_cells_.of_cell(cell));
+        if (is_listed(boundary_cell))
+            return true;
+        if (sorter_.slabs_[boundary_cell] != no_slab) {
+            defer(boundary_cell);
             return false;
         }
-        sorter_.is_listed_[boundary_cell] = 1;
-        for (std::uint32_t i = sorter_.waiting_head_[boundary_cell]; i != none; i = sorter_.waiting_[i].next)
-            sorter_.queue_[ready_++] = sorter_.waiting_[i].cell;
+        list_boundary_cell(boundary_cell);
         return true;
+    }
+
+    // What waited for the cell looks again for what it covers.
+    void list_boundary_cell(std::uint32_t boundary_cell)
+    {
+        sorter_.is_listed_[boundary_cell] = 1;
+        std::uint32_t waiting = std::exchange(sorter_.waiting_head_[boundary_cell], none);
+        while (waiting != none) {
+            const std::uint32_t next = sorter_.next_[waiting];
+            defer(waiting);
+            waiting = next;
+        }
+    }
+
+    // A ready cell that covers no pending face goes back to the queue to be listed; else it waits for the cell of one
+    // that it covers.
+    void look_for_covered(std::uint32_t boundary_cell)
+    {
+        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
+        const auto listed = [&](std::uint32_t other) { return is_listed(other); };
+        std::uint32_t covered = none;
+        for (std::uint32_t face = begin; face < end && covered == none; ++face)
+            if ((sorter_.roles_[face] & exit_role) != 0)
+                sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
+                    if (sorter_.obstructs(face, entry, eye_))
+                        covered = entry;
+                    return covered == none;
+                });
+        if (covered != none) {
+            ++sorter_.relation_count_;
+            std::uint32_t& head = sorter_.waiting_head_[sorter_.boundary_cells_.of_face(covered)];
+            sorter_.next_[boundary_cell] = std::exchange(head, boundary_cell);
+            return;
+        }
+        list_boundary_cell(boundary_cell);
+        sorter_.queue_[ready_++] = owner(begin);
     }
 
     BspXmpvo& sorter_;
@@ -237,6 +306,7 @@ private:
     std::size_t queue_begin_ = 0;
     std::size_t ready_ = 0;
     std::size_t listed_ = 0;
+    std::size_t farthest_ = 0; // one more than the farthest slab that may hold deferred cells
 };
 
 BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells)
@@ -278,28 +348,44 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     groups_left_.assign(tree_.group_counts().begin(), tree_.group_counts().end());
     is_listed_.assign(boundary_cells_.count(), 0);
     waiting_head_.assign(boundary_cells_.count(), none);
-    waiting_.clear();
+    next_.resize(boundary_cells_.count());
+    slabs_.resize(boundary_cells_.count());
+    deferred_.assign(slab_count, none);
     boxes_.reset(faces.size(), charts.count());
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, faces.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            roles_[i] = 0;
-            if (groups_left_[i] == 0)
-                continue;
-            SeenFace& seen = seen_[i];
-            seen.turn = side_of_plane(seen.points[0], seen.points[1], seen.points[2], eye);
-            if (scene_.is_surface())
-                roles_[i] = seen.turn == Sign::zero ? 0 : exit_role | entry_role;
-            else
-                roles_[i] = (signs_.exit(faces[i].cell) >> faces[i].face & 1u) != 0    ? exit_role
-                            : (signs_.entry(faces[i].cell) >> faces[i].face & 1u) != 0 ? entry_role
-                                                                                       : 0;
-            for (int chart = 0; roles_[i] != 0 && chart < charts.count(); ++chart)
-                if (const auto box = charts.box(seen.vertices(), chart))
-                    boxes_.set(i, chart, *box);
-        }
-    });
-    pending_.reset(boxes_, faces.size());
+    const Depth depth(scene_.bounds(), eye);
+    oneapi::tbb::parallel_for(
+        oneapi::tbb::blocked_range<std::size_t>(0, boundary_cells_.count(), 1024), [&](const auto& range) {
+            for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
+                slabs_[cell] = no_slab;
+                const auto [begin, end] = boundary_cells_.faces(cell);
+                for (std::uint32_t i = begin; i < end; ++i) {
+                    roles_[i] = groups_left_[i] == 0 ? 0 : role(i, eye);
+                    if (roles_[i] == 0)
+                        continue;
+                    for (int chart = 0; chart < charts.count(); ++chart)
+                        if (const auto box = charts.box(seen_[i].vertices(), chart))
+                            boxes_.set(i, chart, *box);
+                    if ((roles_[i] & exit_role) != 0)
+                        slabs_[cell] = slabs_[cell] == no_slab ? depth.slab(seen_[i].points[0])
+                                                               : std::max(slabs_[cell], depth.slab(seen_[i].points[0]));
+                }
+            }
+        });
+    pending_.reset(boxes_, boundary_cells_.of_faces(),
+                   [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
     pending_count_ = test_count_ = relation_count_ = 0;
+}
+
+std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye)
+{
+    SeenFace& seen = seen_[face];
+    seen.turn = side_of_plane(seen.points[0], seen.points[1], seen.points[2], eye);
+    if (scene_.is_surface())
+        return seen.turn == Sign::zero ? 0 : exit_role | entry_role;
+    const CellFace& of_cell = tree_.faces()[face];
+    return (signs_.exit(of_cell.cell) >> of_cell.face & 1u) != 0    ? exit_role
+           : (signs_.entry(of_cell.cell) >> of_cell.face & 1u) != 0 ? entry_role
+                                                                    : 0;
 }
 
 bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
@@ -365,8 +451,8 @@ std::size_t BspXmpvo::bytes() const
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
            size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + size_of(seen_) +
-           size_of(waiting_) + boxes_.bytes() + pending_.bytes() + size_of(all_relations_.relations) +
-           topological_sort_.bytes();
+           size_of(next_) + size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
+           size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const

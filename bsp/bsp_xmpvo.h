@@ -25,6 +25,7 @@ public:
 
     std::size_t count() const { return first_face_.size() - 1; }
     std::uint32_t of_face(std::uint32_t face) const { return of_face_[face]; }
+    std::span<const std::uint32_t> of_faces() const { return of_face_; }
     /// Of a cell that is one of them.
     std::size_t of_cell(CellId cell) const
     {
@@ -77,17 +78,13 @@ private:
 
     // What the eye makes of each of the tree's faces.
     void look_at_faces(const glm::dvec4& eye);
+    std::uint8_t role(std::uint32_t face, const glm::dvec4& eye);
     // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
     bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
     void sort_with_cycles(const glm::dvec4& eye, Order& order);
-
-    struct Waiting {
-        CellId cell;
-        std::uint32_t next;
-    };
 
     const Scene& scene_;
     BspTree tree_;
@@ -104,7 +101,10 @@ private:
     // A boundary cell each.
     std::vector<std::uint8_t> is_listed_;
     std::vector<std::uint32_t> waiting_head_; // of the cells that wait for it
-    std::vector<Waiting> waiting_;
+    std::vector<std::uint32_t> next_;         // in the list of those that wait for one cell or are in one slab
+    std::vector<std::uint16_t> slabs_;        // of depth, of a cell with exit faces
+
+    std::vector<std::uint32_t> deferred_; // of a slab: the ready cells that are still to look for what they cover
 
     LargeArray<CellId> queue_; // of cells that are ready
     ImageBoxes boxes_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 
 namespace visorder {
 
@@ -23,11 +25,11 @@ void ImageBoxes::set(std::size_t face, int chart, const Box& box)
                                                                                           rounded(box.max)};
 }
 
-void PendingFaces::reset(const ImageBoxes& boxes, std::size_t faces)
+void PendingFaces::make_grids(std::size_t faces)
 {
-    boxes_ = &boxes;
+    const ImageBoxes& boxes = *boxes_;
     grids_.assign(static_cast<std::size_t>(boxes.chart_count()), {});
-    std::size_t heads = 0;
+    std::size_t lists = 0;
     for (int chart = 0; chart < boxes.chart_count(); ++chart) {
         glm::dvec2 min(std::numeric_limits<double>::infinity()), max = -min, sizes(0);
         double count = 0;
@@ -42,30 +44,39 @@ void PendingFaces::reset(const ImageBoxes& boxes, std::size_t faces)
             ++count;
         }
         Grid& grid = grids_[static_cast<std::size_t>(chart)];
-        grid.first_head = heads;
+        grid.first_list = lists;
         const glm::dvec2 size = max - min;
         if (count > 0 && size.x > 0 && size.y > 0) {
-            // Squares as large as a face is on average.
+            // Squares twice as large as a face is on average.
             const auto squares = [&](double extent, double of_faces) {
-                return static_cast<std::uint32_t>(std::clamp(extent * count / of_faces, 1.0, std::sqrt(4 * count + 1)));
+                return static_cast<std::uint32_t>(
+                    std::clamp(0.5 * extent * count / of_faces, 1.0, std::sqrt(4 * count + 1)));
             };
             grid.columns = squares(size.x, sizes.x);
             grid.rows = squares(size.y, sizes.y);
             grid.origin = glm::vec2(min);
             grid.per_unit = glm::vec2(glm::dvec2(grid.columns, grid.rows) / size);
         }
-        heads += 1 + std::size_t{grid.columns} * grid.rows;
+        lists += 1 + std::size_t{grid.columns} * grid.rows;
     }
-    heads_.assign(heads, none);
-    links_.clear();
-    stamps_.assign(faces, 0);
-    search_ = 0;
+    lists_.assign(lists, {});
+}
+
+void PendingFaces::sort_lists()
+{
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, lists_.size(), 256), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            std::sort(entries_.begin() + lists_[i].begin, entries_.begin() + lists_[i].end,
+                      [](const Entry& a, const Entry& b) {
+                          return a.farthest > b.farthest || (a.farthest == b.farthest && a.face < b.face);
+                      });
+    });
 }
 
 std::size_t PendingFaces::bytes() const
 {
-    return grids_.capacity() * sizeof(Grid) + (heads_.capacity() + stamps_.capacity()) * sizeof(std::uint32_t) +
-           links_.capacity() * sizeof(Link);
+    return grids_.capacity() * sizeof(Grid) + lists_.capacity() * sizeof(List) + entries_.capacity() * sizeof(Entry) +
+           is_added_.capacity() + stamps_.capacity() * sizeof(std::uint32_t);
 }
 
 } // namespace visorder

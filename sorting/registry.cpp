@@ -110,15 +110,13 @@ std::unique_ptr<Sorter> make_sorter(std::string_view name, const Scene& scene, c
 AutoChoice choose_sorter(const Scene& scene)
 {
     if (scene.is_surface())
-        return {"centroid", "a surface scene: no sorter here is exact for it"};
+        return {"bsp-xmpvo", "a surface: each triangle may cover each other one"};
     const Traits& traits = scene.traits();
     if (!traits.planar_faces)
         return {"centroid", "faces that are not planar: no sorter here is exact for them; subdivide into tetrahedra"};
     if (traits.convex)
         return {"mpvo", "the mesh is convex: relations across interior faces are all there are"};
-    if (traits.delaunay)
-        return {"power", "the mesh is not convex, but Delaunay: powers order it, up to ties and the rounding of keys"};
-    return {"mpvo", "the mesh is not convex and no sorter here is exact for it; mpvo keeps all interior relations"};
+    return {"bsp-xmpvo", "the mesh is not convex: rays may leave it and come back"};
 }
 
 Order visibility_order(const Mesh& mesh, const View& view)

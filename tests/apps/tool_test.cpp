@@ -106,7 +106,7 @@ TEST(Tool, InspectsAndLists)
 {
     const Outcome inspected = run("inspect --scene fin:3000");
     EXPECT_EQ(inspected.code, 0);
-    for (const char* part : {"tetrahedron", "convex          no", "auto            mpvo"})
+    for (const char* part : {"tetrahedron", "convex          no", "auto            bsp-xmpvo"})
         EXPECT_NE(inspected.output.find(part), std::string::npos) << part << "\n" << inspected.output;
     const Outcome whole = run("inspect --scene grid:600 --whole");
     EXPECT_NE(whole.output.find("hexahedron"), std::string::npos) << whole.output;
@@ -123,7 +123,7 @@ TEST(Tool, TakesSurfaceScenes)
     EXPECT_EQ(compared.code, 0) << compared.output;
     for (const char* part : {"0 boundary edges, surface\n", "pairs of cells overlap", "power            skipped"})
         EXPECT_NE(compared.output.find(part), std::string::npos) << part << "\n" << compared.output;
-    const Outcome sorted = run("sort --scene cards:200 --eye 3,2,1 -o " + order);
+    const Outcome sorted = run("sort --scene cards:200 --eye 3,2,1 --sorter centroid -o " + order);
     EXPECT_EQ(sorted.code, 0) << sorted.output;
     const Outcome checked = run("check --scene cards:200 " + order + " --eye 3,2,1");
     EXPECT_EQ(checked.code, 1) << checked.output;

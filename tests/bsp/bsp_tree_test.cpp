@@ -73,12 +73,6 @@ struct Places {
     bool may_cover(std::size_t nearer, std::size_t farther) const { return first[farther] <= last[nearer]; }
 };
 
-Mesh mesh_of(const std::string& specification)
-{
-    const Mesh mesh = generate(specification);
-    return mesh.shapes.front() == CellShape::triangle ? mesh : subdivide(mesh).mesh;
-}
-
 const char* const many_faces[] = {"carved:3000", "contact:1500", "cavity:2000", "reactor:1500",
                                   "slivers:600", "shells:1500",  "cards:300",   "knot:900"};
 
@@ -99,7 +93,7 @@ TEST(BspTree, HasEveryFaceThatHasArea)
         EXPECT_EQ(tree.split_count(), groups - placed) << name;
     };
     for (const char* specification : many_faces)
-        expect_all_faces(mesh_of(specification), specification);
+        expect_all_faces(subdivide(generate(specification)).mesh, specification);
     for (std::uint64_t number = 1; number <= 200; ++number)
         expect_all_faces(small_scene(number), fmt::format("small scene {}", number));
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -117,7 +111,7 @@ TEST(BspTree, HasEveryFaceThatHasArea)
 TEST(BspTree, WalksThroughEveryGroupOnceFromAnyEye)
 {
     for (const char* specification : many_faces) {
-        const Scene scene(mesh_of(specification));
+        const Scene scene(subdivide(generate(specification)).mesh);
         const BspTree tree(scene, 1);
         for (const NamedView& view : all_views(scene)) {
             SCOPED_TRACE(std::string(specification) + ", " + view.name);
@@ -205,7 +199,7 @@ TEST(BspTree, ComesToTheFartherFaceOfEveryPairFirst)
         expect_order(triangles, fmt::format("triangles {}", seed), some_of(small_scene_eyes(triangles, seed), 1, 5));
     }
     for (const char* specification : {"contact:600", "reactor:600", "carved:600", "slivers:600", "cards:300"}) {
-        const Scene scene(mesh_of(specification));
+        const Scene scene(subdivide(generate(specification)).mesh);
         std::vector<glm::dvec4> eyes;
         for (const NamedView& view : hard_views(scene, {64, 64}))
             eyes.push_back(view.view.eye);
@@ -237,7 +231,7 @@ TEST(BspTree, ComesToWhatIsFartherOnARayFirst)
     std::size_t compared = 0;
     for (const char* specification :
          {"carved:20000", "reactor:8000", "cavity:6000", "shells:5000", "gear-helical:2000"}) {
-        const Scene scene(mesh_of(specification));
+        const Scene scene(subdivide(generate(specification)).mesh);
         const BspTree tree(scene, 1);
         EXPECT_GT(tree.depth(), 5u);
         std::vector<std::vector<glm::dvec3>> faces;
@@ -293,7 +287,7 @@ TEST(BspTree, HasFewNodesAndSplits)
 TEST(BspTree, IsTheSameForAnyNumberOfThreads)
 {
     for (const char* specification : {"carved:8000", "reactor:3000", "shells:3000"}) {
-        const Scene scene(mesh_of(specification));
+        const Scene scene(subdivide(generate(specification)).mesh);
         const BspTree expected(scene, 1);
         for (int threads = 1; threads <= 4; ++threads) {
             const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,

@@ -20,8 +20,7 @@ namespace {
 TEST(BspXmpvo, IsRightWithAnySeed)
 {
     for (const char* specification : {"carved:1500", "contact:600", "reactor:600", "cards:200", "pinwheel:60"}) {
-        const Mesh mesh = generate(specification);
-        const Scene scene(mesh.shapes.front() == CellShape::triangle ? mesh : subdivide(mesh).mesh);
+        const Scene scene(subdivide(generate(specification)).mesh);
         const OrderChecker checker(scene);
         for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{3}, ~std::uint64_t{0}}) {
             BspXmpvo sorter(scene, seed);

@@ -17,13 +17,20 @@ bool meet_in_image(const Box& a, const Box& b)
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
 }
 
-// Faces by their boxes in several charts, cells by a few faces each, and how their owner sees the pending ones.
+// Faces by their boxes in several charts, and cells of three faces each.
 struct Faces {
     std::vector<std::vector<std::optional<Box>>> boxes; // [face][chart]
     int charts;
 
     std::size_t count() const { return boxes.size(); }
-    std::uint32_t cell(std::uint32_t face) const { return face / 3; }
+    std::vector<std::uint32_t> cells() const
+    {
+        std::vector<std::uint32_t> of_faces(count());
+        for (std::uint32_t face = 0; face < count(); ++face)
+            of_faces[face] = face / 3;
+        return of_faces;
+    }
+    static bool is_entry(std::uint32_t face) { return face % 5 != 0; }
 
     ImageBoxes image() const
     {
@@ -71,28 +78,29 @@ Faces random_faces(Random& random, int count, int charts, int extent, int size)
 void expect_found(Random& random, const Faces& faces)
 {
     const ImageBoxes image = faces.image();
+    const std::vector<std::uint32_t> cells = faces.cells();
     PendingFaces pending;
-    pending.reset(image, faces.count());
+    pending.reset(image, cells, Faces::is_entry);
     std::vector<bool> is_pending(faces.count()), is_listed(faces.count());
     const auto listed = [&](std::uint32_t cell) { return is_listed[cell]; };
     for (int step = 0; step < 600; ++step) {
         const auto face = static_cast<std::uint32_t>(random.below(static_cast<int>(faces.count())));
         switch (random.below(8)) {
         case 0:
-            is_listed[faces.cell(face)] = true;
+            is_listed[cells[face]] = true;
             break;
         case 1:
         case 2:
         case 3:
-            if (!is_pending[face] && !is_listed[faces.cell(face)]) {
-                pending.add(face, faces.cell(face), listed);
+            if (Faces::is_entry(face) && !is_pending[face] && !is_listed[cells[face]]) {
+                pending.add(face);
                 is_pending[face] = true;
             }
             break;
         default: {
             std::vector<std::uint32_t> expected, found;
             for (std::uint32_t other = 0; other < faces.count(); ++other)
-                if (is_pending[other] && !is_listed[faces.cell(other)] && faces.may_cover(face, other))
+                if (is_pending[other] && !is_listed[cells[other]] && faces.may_cover(face, other))
                     expected.push_back(other);
             pending.search(face, listed, [&](std::uint32_t other) {
                 found.push_back(other);
@@ -113,7 +121,7 @@ void expect_found(Random& random, const Faces& faces)
     }
 }
 
-TEST(PendingFaces, AreFoundWhereverBoxesMeet)
+TEST(PendingFaces, AreFoundFromWhenTheyAreAddedUntilTheirCellsAreListed)
 {
     for (std::uint64_t seed = 1; seed <= 60 && !testing::Test::HasFailure(); ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -139,10 +147,10 @@ TEST(PendingFaces, AreFoundInImagesOfAnyExtent)
         // What single precision cannot tell apart meets as well: nothing that meets may be lost.
         const ImageBoxes image = faces.image();
         PendingFaces pending;
-        pending.reset(image, faces.count());
+        pending.reset(image, faces.cells(), [](std::uint32_t face) { return face % 2 == 0; });
         const auto none_listed = [](std::uint32_t) { return false; };
         for (std::uint32_t face = 0; face < faces.count(); face += 2)
-            pending.add(face, face / 3, none_listed);
+            pending.add(face);
         for (std::uint32_t face = 0; face < faces.count(); ++face) {
             std::vector<int> found(faces.count(), 0);
             pending.search(face, none_listed, [&](std::uint32_t other) {
@@ -188,13 +196,13 @@ TEST(PendingFaces, AreGoneAfterReset)
     PendingFaces pending;
     const auto none_listed = [](std::uint32_t) { return false; };
     for (int round = 0; round < 2; ++round) {
-        pending.reset(image, faces.count());
+        pending.reset(image, faces.cells(), Faces::is_entry);
         std::size_t found = 0;
         for (std::uint32_t face = 0; face < faces.count(); ++face)
             pending.search(face, none_listed, [&](std::uint32_t) { return ++found != 0; });
         EXPECT_EQ(found, 0u);
         for (std::uint32_t face = 0; face < faces.count(); ++face)
-            pending.add(face, face / 3, none_listed);
+            pending.add(face);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "checking/order_checker.h"
 #include "depth/newell.h"
 #include "scene/error.h"
+#include "scene/subdivision.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/checking/small_scenes.h"
@@ -66,7 +67,7 @@ TEST(Newell, HasNoViolationFromHardViews)
 {
     for (const GeneratedScene& family : generated_scenes()) {
         const std::string specification = small_specification(family);
-        const Scene scene(generate(specification));
+        const Scene scene(subdivide(generate(specification)).mesh);
         if (Newell(scene).guarantee() != Guarantee::exact)
             continue;
         std::vector<glm::dvec4> eyes;

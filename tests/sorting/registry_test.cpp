@@ -23,7 +23,8 @@ TEST(Registry, MakesEverySorterItLists)
         EXPECT_EQ(order.back_to_front.size(), scene.cell_count()) << info.name;
         EXPECT_GT(sorter->bytes(), 0u) << info.name;
     }
-    for (const char* name : {"centroid", "power", "newell", "mpvo", "auto"})
+    for (const char* name :
+         {"centroid", "power", "newell", "mpvo", "mpvo-nc", "xmpvo", "xmpvo-exact", "bsp-xmpvo", "auto"})
         EXPECT_EQ(names.count(name), 1u) << name;
 }
 
@@ -76,12 +77,12 @@ TEST(Auto, TakesWhatIsExactWhereSomethingIs)
 {
     EXPECT_STREQ(choose_sorter(Scene(generate("delaunay:500"))).name, "mpvo");
     EXPECT_STREQ(choose_sorter(Scene(generate("grid:600"))).name, "mpvo");
-    EXPECT_STREQ(choose_sorter(Scene(generate("carved:500"))).name, "power");
-    EXPECT_STREQ(choose_sorter(Scene(generate("fin:600"))).name, "mpvo");
+    EXPECT_STREQ(choose_sorter(Scene(generate("carved:500"))).name, "bsp-xmpvo");
+    EXPECT_STREQ(choose_sorter(Scene(generate("fin:600"))).name, "bsp-xmpvo");
     Mesh surface;
     surface.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     surface.add(CellShape::triangle, std::array{0u, 1u, 2u});
-    EXPECT_STREQ(choose_sorter(Scene(surface)).name, "centroid");
+    EXPECT_STREQ(choose_sorter(Scene(surface)).name, "bsp-xmpvo");
 }
 
 TEST(VisibilityOrder, IsOneCall)
