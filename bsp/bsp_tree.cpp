@@ -261,9 +261,9 @@ private:
             if (!sides.positive && !sides.negative)
                 in_plane.push_back(piece.face);
         }
-        // Faces too much entangled for planes to part them remain together.
-        if (std::max(positive.size(), negative.size()) > pieces.size() * 7 / 8 &&
-            positive.size() + negative.size() > pieces.size() * 3 / 2) {
+        // Faces too much entangled for planes to part them remain together, and so do those of a convex surface: no
+        // plane of one parts the others.
+        if (std::max(positive.size(), negative.size()) > pieces.size() * 7 / 8) {
             keep();
             return;
         }

@@ -202,8 +202,8 @@ PlaneSides plane_sides(const SeenFace& plane, const SeenFace& points)
     return sides;
 }
 
-// Whether all corners of `points` lie for sure on the side of a face's plane that `side` says, some strictly: `positive`
-// is the eye's. Corners in common lie in the plane.
+// Whether all corners of `points` lie for sure on the side of a face's plane that `side` says, some strictly:
+// `positive` is the eye's. Corners in common lie in the plane.
 bool all_surely_on(Sign side, const SeenFace& plane, const SeenFace& points)
 {
     const glm::dvec3 &a = plane.points[0], p = plane.points[1] - a, q = plane.points[2] - a;

@@ -9,7 +9,17 @@
 namespace visorder {
 
 /// What a Scene derives from its mesh when first asked, once.
-enum class Structure { numbering, orientations, adjacency, boundary, face_planes, centroids, circumspheres, traits, overlapping_cells };
+enum class Structure {
+    numbering,
+    orientations,
+    adjacency,
+    boundary,
+    face_planes,
+    centroids,
+    circumspheres,
+    traits,
+    overlapping_cells
+};
 
 const char* name(Structure structure);
 
