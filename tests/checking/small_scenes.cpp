@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <numeric>
 
 namespace visorder {
 
@@ -211,6 +212,113 @@ std::vector<SmallScene> small_scenes()
         scenes.push_back({"scattered cells" + suffix, scattered_cells(25, 12 + i, seed)});
     }
     return scenes;
+}
+
+Mesh small_scene(std::uint64_t number)
+{
+    const int i = static_cast<int>(number / 5);
+    switch (number % 5) {
+    case 0:
+        return carved_delaunay(6 + i % 4, 40, 0.5, number);
+    case 1:
+        return box_grid({2, 2, 1 + i % 2}, 1 + i % 3, 0.4, number);
+    case 2:
+        return whole_boxes({2, 2, 2}, 1 + i % 3, 0.4, number);
+    case 3:
+        return scattered_cells(14, 4 + i % 3, number);
+    default:
+        return scattered_cells(10, 10 + i % 9, number);
+    }
+}
+
+void add_box(Mesh& mesh, const std::array<glm::dvec3, 8>& corners)
+{
+    std::array<PointId, 8> v;
+    std::iota(v.begin(), v.end(), static_cast<PointId>(mesh.points.size()));
+    mesh.points.insert(mesh.points.end(), corners.begin(), corners.end());
+    mesh.add(CellShape::hexahedron, v);
+}
+
+void add_box(Mesh& mesh, const glm::dvec3& low, const glm::dvec3& high)
+{
+    const glm::dvec3 size = high - low;
+    add_box(mesh, parallelepiped(low, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}));
+}
+
+Mesh interlocked_bars(bool solids)
+{
+    Mesh mesh;
+    const std::array<glm::dvec3, 3> corners{{{0, 12, 0}, {-12, -8, 0}, {12, -8, 0}}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 from = corners[i], to = corners[(i + 1) % 3], along = (to - from) * 0.25;
+        const glm::dvec3 low = from - along + glm::dvec3(0, 0, -8), high = to + along + glm::dvec3(0, 0, 8);
+        const glm::dvec3 side = glm::dvec3(along.y, -along.x, 0) * 0.25, up(0, 0, 1);
+        if (solids) {
+            add_box(mesh, {low - side, low + side, high + side, high - side, low - side + up, low + side + up,
+                           high + side + up, high - side + up});
+            continue;
+        }
+        const auto first = static_cast<PointId>(mesh.points.size());
+        mesh.points.insert(mesh.points.end(), {low - side, low + side, high});
+        mesh.add(CellShape::triangle, std::array{first, first + 1, first + 2});
+    }
+    return mesh;
+}
+
+Mesh triangles(const std::vector<glm::dvec3>& corners)
+{
+    Mesh mesh;
+    mesh.points = corners;
+    for (PointId i = 0; i + 2 < corners.size(); i += 3)
+        mesh.add(CellShape::triangle, std::array{i, i + 1, i + 2});
+    return mesh;
+}
+
+Mesh random_triangles(int count, int size, std::uint64_t seed)
+{
+    Random random(seed);
+    std::vector<glm::dvec3> corners;
+    for (int i = 0; i < 3 * count; ++i)
+        corners.push_back(random.integer_point(0, size));
+    // Some of no area.
+    corners[1] = corners[0];
+    corners[5] = corners[4] * 2.0 - corners[3];
+    return triangles(corners);
+}
+
+Mesh overlapping_cells(int count, int size, std::uint64_t seed)
+{
+    Random random(seed);
+    Mesh mesh;
+    for (int i = 0; i < count; ++i)
+        add_random_cell(mesh, random, 0, size);
+    return mesh;
+}
+
+Mesh flat_cells()
+{
+    // A square's two halves below, cut along one diagonal, and above, cut along the other; a flat cell between them.
+    Mesh mesh;
+    mesh.points = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {1, 2, -5}, {2, 1, 6}};
+    mesh.add(CellShape::tetrahedron, std::array{0u, 1u, 3u, 4u});
+    mesh.add(CellShape::tetrahedron, std::array{1u, 2u, 3u, 4u});
+    mesh.add(CellShape::tetrahedron, std::array{0u, 1u, 2u, 3u});
+    mesh.add(CellShape::tetrahedron, std::array{0u, 2u, 1u, 5u});
+    mesh.add(CellShape::tetrahedron, std::array{0u, 2u, 3u, 5u});
+    // Another that hangs on a boundary face, one alone, and one that collapsed.
+    mesh.points.insert(mesh.points.end(), {{1, 1, -2}, {8, 8, 0}, {9, 8, 0}, {8, 9, 0}, {9, 9, 0}});
+    mesh.add(CellShape::tetrahedron, std::array{0u, 1u, 4u, 6u});
+    mesh.add(CellShape::tetrahedron, std::array{7u, 8u, 9u, 10u});
+    mesh.add(CellShape::tetrahedron, std::array{0u, 1u, 1u, 5u});
+    return mesh;
+}
+
+Mesh squashed_delaunay(std::uint64_t seed)
+{
+    Mesh mesh = carved_delaunay(8, 40, 0.8, seed);
+    for (std::size_t i = 0; i < mesh.points.size(); i += 1 + seed % 3)
+        mesh.points[i].z = 20;
+    return mesh;
 }
 
 std::vector<glm::dvec4> small_scene_eyes(const Scene& scene, std::uint64_t seed)

@@ -2,6 +2,7 @@
 
 #include "scene/mesh.h"
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -58,9 +59,38 @@ Mesh whole_boxes(glm::ivec3 boxes, int spacing, double missing, std::uint64_t se
 /// Convex cells of random shapes, with integer coordinates in [0, size], none of which overlap.
 Mesh scattered_cells(int attempts, int size, std::uint64_t seed);
 
+/// One scene of the endless sequence of all these kinds, without those of small cells in large boxes: 1, 2, 3, ...
+Mesh small_scene(std::uint64_t number);
+
 /// A random convex cell with integer coordinates in [low, high] and planar faces; `add_random_cell` appends its points
 /// and the cell. Not flat.
 void add_random_cell(Mesh& mesh, Random& random, int low, int high);
+
+/// Appends a hexahedron, its corners as VTK numbers them.
+void add_box(Mesh& mesh, const std::array<glm::dvec3, 8>& corners);
+
+/// Appends the box between two corners, of which `low` is the lower one along each axis.
+void add_box(Mesh& mesh, const glm::dvec3& low, const glm::dvec3& high);
+
+/// Three bars along the sides of a triangle, each passing over the next at one end and under the one before at the
+/// other, as seen along z: solids that do not touch, or triangles.
+Mesh interlocked_bars(bool solids);
+
+/// The surface of every three corners.
+Mesh triangles(const std::vector<glm::dvec3>& corners);
+
+/// Triangles whose corners have integer coordinates in [0, size], some of no area.
+Mesh random_triangles(int count, int size, std::uint64_t seed);
+
+/// Cells with integer coordinates in [0, size] that overlap in space wherever they happen to.
+Mesh overlapping_cells(int count, int size, std::uint64_t seed);
+
+/// Tetrahedra below and above a flat one between them, and more flat ones: at a boundary face, alone, and collapsed.
+Mesh flat_cells();
+
+/// A carved Delaunay mesh, every few points of which were moved to one plane: many flat, inverted and overlapping
+/// cells.
+Mesh squashed_delaunay(std::uint64_t seed);
 
 /// Eyes with integer coordinates, or directions, that are hard on this scene: far and near ones, at a vertex, in the
 /// middle, in planes of faces, along the axes.

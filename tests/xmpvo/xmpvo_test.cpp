@@ -1,13 +1,13 @@
 #include "xmpvo/xmpvo.h"
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
 #include "checking/order_checker.h"
 #include "mpvo/mpvo.h"
 #include "scene/concurrency.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
 #include "sorting/boundary_relations.h"
+#include "tests/checking/expectations.h"
+#include "tests/checking/generated.h"
 #include "tests/mpvo/interior_relations.h"
 #include "tests/scene/meshes.h"
 
@@ -22,23 +22,6 @@
 
 namespace visorder {
 namespace {
-
-std::vector<NamedView> all_views(const Scene& scene)
-{
-    std::vector<NamedView> views = hard_views(scene, {64, 64});
-    for (NamedView& view : random_views(scene, 6, 2, {64, 64}))
-        views.push_back(std::move(view));
-    return views;
-}
-
-double statistic(const Sorter& sorter, const std::string& name)
-{
-    for (const Statistic& statistic : sorter.statistics())
-        if (name == statistic.name)
-            return statistic.value;
-    ADD_FAILURE() << "no statistic " << name;
-    return 0;
-}
 
 TEST(Xmpvo, OrdersEveryConvexSceneFromEveryHardView)
 {

@@ -1,0 +1,256 @@
+#include "bsp/pending_faces.h"
+
+#include "tests/checking/small_scenes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <gtest/gtest.h>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace visorder {
+namespace {
+
+bool meet_in_image(const Box& a, const Box& b)
+{
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
+}
+
+// Faces by their boxes in several charts, and cells of three faces each.
+struct Faces {
+    std::vector<std::vector<std::optional<Box>>> boxes; // [face][chart]
+    int charts;
+
+    std::size_t count() const { return boxes.size(); }
+    std::vector<std::uint32_t> cells() const
+    {
+        std::vector<std::uint32_t> of_faces(count());
+        for (std::uint32_t face = 0; face < count(); ++face)
+            of_faces[face] = face / 3;
+        return of_faces;
+    }
+    static bool is_entry(std::uint32_t face) { return face % 5 != 0; }
+
+    ImageBoxes image() const
+    {
+        ImageBoxes image;
+        image.reset(count(), charts);
+        for (std::size_t face = 0; face < count(); ++face)
+            for (int chart = 0; chart < charts; ++chart)
+                if (const auto& box = boxes[face][static_cast<std::size_t>(chart)])
+                    image.set(face, chart, *box);
+        return image;
+    }
+
+    // Whether they meet in some chart, and not all of b is nearer than a.
+    bool may_cover(std::uint32_t a, std::uint32_t b) const
+    {
+        for (std::size_t chart = 0; chart < static_cast<std::size_t>(charts); ++chart)
+            if (const auto& f = boxes[a][chart], &g = boxes[b][chart];
+                f && g && meet_in_image(*f, *g) && f->min.z <= g->max.z)
+                return true;
+        return false;
+    }
+};
+
+// Coordinates that single precision holds: multiples of 1 / 8 up to `extent`, or as few as to meet often.
+Faces random_faces(Random& random, int count, int charts, int extent, int size)
+{
+    Faces faces{{}, charts};
+    for (int face = 0; face < count; ++face) {
+        auto& of_face = faces.boxes.emplace_back();
+        for (int chart = 0; chart < charts; ++chart) {
+            if (random.below(4) == 0) {
+                of_face.emplace_back();
+                continue;
+            }
+            // A few are as large as the image.
+            const int most = random.below(20) == 0 ? 8 * extent : 8 * size;
+            const glm::dvec3 low = random.integer_point(-8 * extent, 8 * extent) / 8.0;
+            of_face.push_back(Box{low, low + random.integer_point(0, most) / 8.0});
+        }
+    }
+    return faces;
+}
+
+// Adds, lists and searches in random order; every search must find what one through all pending faces finds.
+void expect_found(Random& random, const Faces& faces)
+{
+    const ImageBoxes image = faces.image();
+    const std::vector<std::uint32_t> cells = faces.cells();
+    PendingFaces pending;
+    pending.reset(image, cells, Faces::is_entry);
+    std::vector<bool> is_pending(faces.count()), is_listed(faces.count());
+    const auto listed = [&](std::uint32_t cell) { return is_listed[cell]; };
+    for (int step = 0; step < 600; ++step) {
+        const auto face = static_cast<std::uint32_t>(random.below(static_cast<int>(faces.count())));
+        switch (random.below(8)) {
+        case 0:
+            is_listed[cells[face]] = true;
+            break;
+        case 1:
+        case 2:
+        case 3:
+            if (Faces::is_entry(face) && !is_pending[face] && !is_listed[cells[face]]) {
+                pending.add(face);
+                is_pending[face] = true;
+            }
+            break;
+        default: {
+            std::vector<std::uint32_t> expected, found;
+            for (std::uint32_t other = 0; other < faces.count(); ++other)
+                if (is_pending[other] && !is_listed[cells[other]] && faces.may_cover(face, other))
+                    expected.push_back(other);
+            pending.search(face, listed, [&](std::uint32_t other) {
+                found.push_back(other);
+                return true;
+            });
+            std::sort(found.begin(), found.end());
+            ASSERT_EQ(found, expected) << "face " << face << " at step " << step;
+            // And as many as are asked for.
+            const std::size_t most = 1 + static_cast<std::size_t>(random.below(3));
+            std::size_t visited = 0;
+            pending.search(face, listed, [&](std::uint32_t other) {
+                EXPECT_TRUE(std::binary_search(expected.begin(), expected.end(), other));
+                return ++visited < most;
+            });
+            ASSERT_EQ(visited, std::min(most, expected.size())) << "face " << face << " at step " << step;
+        }
+        }
+    }
+}
+
+TEST(PendingFaces, AreFoundFromWhenTheyAreAddedUntilTheirCellsAreListed)
+{
+    for (std::uint64_t seed = 1; seed <= 60 && !testing::Test::HasFailure(); ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        const int charts = seed % 3 == 0 ? 1 : 1 + random.below(6);
+        expect_found(random,
+                     random_faces(random, 30 + random.below(200), charts, 1 + random.below(30), 1 + random.below(4)));
+    }
+}
+
+TEST(PendingFaces, AreFoundInImagesOfAnyExtent)
+{
+    const double most = std::numeric_limits<double>::max();
+    for (const double scale : {1e-300, 1e-40, 1e-30, 1e30, 1e37, 1e200, 1e305}) {
+        SCOPED_TRACE(testing::Message() << "times " << scale);
+        Random random(7);
+        Faces faces = random_faces(random, 120, 2, 20, 2);
+        Faces expected = faces;
+        for (auto& of_face : faces.boxes)
+            for (auto& box : of_face)
+                if (box)
+                    box = Box{box->min * scale, box->max * scale};
+        // What single precision cannot tell apart meets as well: nothing that meets may be lost.
+        const ImageBoxes image = faces.image();
+        PendingFaces pending;
+        pending.reset(image, faces.cells(), [](std::uint32_t face) { return face % 2 == 0; });
+        const auto none_listed = [](std::uint32_t) { return false; };
+        for (std::uint32_t face = 0; face < faces.count(); face += 2)
+            pending.add(face);
+        for (std::uint32_t face = 0; face < faces.count(); ++face) {
+            std::vector<int> found(faces.count(), 0);
+            pending.search(face, none_listed, [&](std::uint32_t other) {
+                ++found[other];
+                return true;
+            });
+            for (std::uint32_t other = 0; other < faces.count(); ++other) {
+                EXPECT_LE(found[other], other % 2 == 0 ? 1 : 0);
+                if (other % 2 == 0 && expected.may_cover(face, other)) {
+                    EXPECT_EQ(found[other], 1) << face << " and " << other;
+                }
+            }
+        }
+    }
+    // A whole chart, as where an eye is too near, among small faces.
+    Random random(8);
+    Faces faces = random_faces(random, 90, 6, 1, 1);
+    for (std::size_t face = 0; face < faces.count(); face += 7)
+        faces.boxes[face][face % 6] = Box{glm::dvec3(-most), glm::dvec3(most)};
+    expect_found(random, faces);
+    // All in a line, in a point, and none at all.
+    for (auto& of_face : faces.boxes)
+        for (auto& box : of_face)
+            if (box)
+                box->min.x = box->max.x = 3;
+    expect_found(random, faces);
+    for (auto& of_face : faces.boxes)
+        for (auto& box : of_face)
+            if (box)
+                box = Box{glm::dvec3(1), glm::dvec3(1)};
+    expect_found(random, faces);
+    for (auto& of_face : faces.boxes)
+        for (auto& box : of_face)
+            box.reset();
+    expect_found(random, faces);
+}
+
+TEST(PendingFaces, AreGoneAfterReset)
+{
+    Random random(3);
+    const Faces faces = random_faces(random, 60, 2, 3, 3);
+    const ImageBoxes image = faces.image();
+    PendingFaces pending;
+    const auto none_listed = [](std::uint32_t) { return false; };
+    for (int round = 0; round < 2; ++round) {
+        pending.reset(image, faces.cells(), Faces::is_entry);
+        std::size_t found = 0;
+        for (std::uint32_t face = 0; face < faces.count(); ++face)
+            pending.search(face, none_listed, [&](std::uint32_t) { return ++found != 0; });
+        EXPECT_EQ(found, 0u);
+        for (std::uint32_t face = 0; face < faces.count(); ++face)
+            pending.add(face);
+    }
+}
+
+TEST(ImageBoxes, MeetWhereTheyMeetInDoublePrecision)
+{
+    Random random(5);
+    for (int i = 0; i < 20000; ++i) {
+        // Boxes whose sides are within a few roundings of each other.
+        const auto corner = [&] {
+            const auto near = [&] { return 0.3 + 1e-8 * random.from_to(-3, 3) + 1e-16 * random.from_to(-3, 3); };
+            return glm::dvec3(near(), near(), near());
+        };
+        const auto box = [&] {
+            Box b;
+            b.add(corner());
+            b.add(corner());
+            return b;
+        };
+        const Box a = box(), b = box();
+        ImageBoxes image;
+        image.reset(2, 1);
+        EXPECT_FALSE(image.present(0, 0));
+        image.set(0, 0, a);
+        image.set(1, 0, b);
+        EXPECT_TRUE(image.present(0, 0));
+        const auto &f = image.box(0, 0), &g = image.box(1, 0);
+        if (a.meets(b)) {
+            EXPECT_TRUE(f.min.x <= g.max.x && g.min.x <= f.max.x && f.min.y <= g.max.y && g.min.y <= f.max.y &&
+                        f.min.z <= g.max.z && g.min.z <= f.max.z);
+        }
+    }
+}
+
+TEST(ImageBoxes, AreAbsentAfterReset)
+{
+    ImageBoxes image;
+    image.reset(4, 3);
+    image.set(2, 1, Box{glm::dvec3(0), glm::dvec3(1)});
+    EXPECT_TRUE(image.present(2, 1));
+    EXPECT_FALSE(image.present(2, 0));
+    EXPECT_FALSE(image.present(1, 1));
+    EXPECT_EQ(image.chart_count(), 3);
+    image.reset(4, 2);
+    for (std::size_t face = 0; face < 4; ++face)
+        for (int chart = 0; chart < 2; ++chart)
+            EXPECT_FALSE(image.present(face, chart));
+    EXPECT_EQ(image.chart_count(), 2);
+}
+
+} // namespace
+} // namespace visorder

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "bench/generated_scene.h"
+#include "bench/views.h"
+#include "scene/scene.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace visorder {
+
+/// The specification of a family's scene of few cells: some families have a least number.
+inline std::string small_specification(const GeneratedScene& family)
+{
+    const std::string name = family.name;
+    return name + (name == "cavity" ? ":2000" : name == "gear-helical" ? ":900" : ":600");
+}
+
+/// The hard views of a scene and some random ones, perspective and parallel.
+inline std::vector<NamedView> all_views(const Scene& scene)
+{
+    std::vector<NamedView> views = hard_views(scene, {64, 64});
+    for (NamedView& view : random_views(scene, 6, 2, {64, 64}))
+        views.push_back(std::move(view));
+    return views;
+}
+
+} // namespace visorder
