@@ -20,7 +20,7 @@ constexpr std::uint8_t exit_role = 1;
 constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
 constexpr std::size_t faces_between_lists = 1024; // that the walk passes before cells that are ready are listed
-constexpr std::uint16_t slab_count = 512;         // of the scene's depth
+constexpr std::uint16_t slab_count = 32;          // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
 constexpr std::size_t prefetch_rows = 32;
 constexpr std::size_t prefetch_states = 12;
@@ -227,6 +227,11 @@ private:
                     for (int f = 0; f < row; ++f)
                         __builtin_prefetch(state + soon[f], 1);
                 }
+            } else if constexpr (row > 0) {
+                // What is to come is not known yet; it is one of these.
+                const CellId* across = neighbour + std::size_t{queue[at]} * row;
+                for (int f = 0; f < row; ++f)
+                    __builtin_prefetch(neighbour + std::size_t{across[f]} * row);
             }
             const CellId cell = queue[at];
             const State s = state[cell];
