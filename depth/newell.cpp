@@ -1,5 +1,7 @@
 #include "depth/newell.h"
 
+#include "scene/error.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,6 +34,17 @@ std::uint32_t windows_across(CellId cells)
 } // namespace
 
 Newell::Newell(const Scene& scene, bool windows) : scene_(scene), windows_(windows), obstruction_(scene) {}
+
+Guarantee Newell::guarantee() const
+{
+    if (!obstruction_.planar_faces())
+        return Guarantee::approximate;
+    try {
+        return scene_.overlapping_cells().empty() ? Guarantee::exact : Guarantee::approximate;
+    } catch (const InputError&) {
+        return Guarantee::approximate; // three cells at one face: two of them overlap
+    }
+}
 
 void Newell::sort(const View& view, Order& order)
 {

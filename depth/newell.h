@@ -31,10 +31,8 @@ public:
     /// Throws InputError where a scene has flat cells and no adjacency.
     explicit Newell(const Scene& scene, bool windows = false);
 
-    Guarantee guarantee() const override
-    {
-        return obstruction_.planar_faces() ? Guarantee::exact : Guarantee::approximate;
-    }
+    /// Exact where faces are planar and no cells overlap in space, which the first call has the scene find out.
+    Guarantee guarantee() const override;
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
 

@@ -57,7 +57,7 @@ constexpr std::array infos
         SorterInfo{"newell",
                    "by the farthest vertex, repaired by tests of whether one cell can obscure another",
                    "Newell 1974; Max, Williams, Silva 2000",
-                   "where faces are planar, surfaces too",
+                   "where faces are planar and no cells overlap, surfaces too",
                    for_newell,
                    30'000},
         SorterInfo{"mpvo", "topological sort over the relations across interior faces", "Williams 1992",
