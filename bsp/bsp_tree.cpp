@@ -86,15 +86,6 @@ Polygon cut(const Polygon& polygon, const Height& height, double sign)
     return rest;
 }
 
-FaceLoop triangle_loop(const Mesh& mesh, CellId cell)
-{
-    FaceLoop loop;
-    for (PointId v : mesh.cell(cell))
-        if (std::find(loop.begin(), loop.end(), v) == loop.end())
-            loop.vertices[static_cast<std::size_t>(loop.count++)] = v;
-    return loop;
-}
-
 constexpr std::uint32_t whole = 0xffffffffu;
 
 struct Piece {
@@ -131,9 +122,7 @@ public:
         planes_.resize(count);
         std::vector<std::uint8_t> has_plane(count);
         oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-            const CellFace& face = tree_.faces_[i];
-            loops_[i] = tree_.scene_.is_surface() ? triangle_loop(mesh_, face.cell)
-                                                  : face_loop(mesh_, face.cell, static_cast<int>(face.face));
+            loops_[i] = boundary_loop(mesh_, tree_.faces_[i]);
             if (loops_[i].count < 3)
                 return;
             if (const auto triple = spanning_triple(mesh_, loops_[i])) {

@@ -25,13 +25,6 @@ constexpr std::uint16_t no_slab = slab_count;
 constexpr std::size_t prefetch_rows = 32;
 constexpr std::size_t prefetch_states = 12;
 
-constexpr auto bits_set = [] {
-    std::array<std::uint8_t, 1 << max_cell_faces> table{};
-    for (std::size_t bits = 1; bits < table.size(); ++bits)
-        table[bits] = static_cast<std::uint8_t>(table[bits / 2] + bits % 2);
-    return table;
-}();
-
 // How far from the eye points are, in slabs of the scene's depth: a guess at the order, no decision.
 class Depth {
 public:
@@ -69,18 +62,12 @@ private:
 // to the eye.
 void set_points(const Scene& scene, const CellFace& face, SeenFace& seen)
 {
-    const auto add = [&](PointId v) {
+    for (PointId v : boundary_loop(scene.mesh(), face)) {
         const glm::dvec3& point = scene.mesh().points[v];
         const auto end = seen.points.begin() + seen.count;
         if (std::find(seen.points.begin(), end, point) == end)
             seen.points[static_cast<std::size_t>(seen.count++)] = point;
-    };
-    if (scene.is_surface())
-        for (PointId v : scene.mesh().cell(face.cell))
-            add(v);
-    else
-        for (PointId v : face_loop(scene.mesh(), face.cell, static_cast<int>(face.face)))
-            add(v);
+    }
     while (collinear(seen.points[0], seen.points[1], seen.points[2]))
         std::rotate(seen.points.begin(), seen.points.begin() + 1, seen.points.begin() + seen.count);
 }
@@ -398,11 +385,8 @@ bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye
     const CellId front = tree_.faces()[f].cell, back = tree_.faces()[g].cell;
     if (front == back)
         return false;
-    if (!scene_.is_surface()) {
-        const auto row = scene_.adjacency().row(front);
-        if (std::find(row.begin(), row.end(), back) != row.end())
-            return false; // the face between them carries the relation
-    }
+    if (!scene_.is_surface() && scene_.adjacency().joins(front, back))
+        return false; // the face between them carries the relation
     if (surely_not_nearer(seen_[f], seen_[g]))
         return false;
     ++test_count_;

@@ -66,21 +66,6 @@ void require_planar_faces(const Scene& scene)
             fmt::format("cell {}: a face is not planar; subdivide the mesh into tetrahedra", lowest.load()));
 }
 
-// The vertices of a face, or of a triangle of a surface scene, as the eye sees them.
-SeenFace seen(const Scene& scene, const CellFace& face, const glm::dvec4& eye)
-{
-    const Mesh& mesh = scene.mesh();
-    std::array<glm::dvec3, max_face_vertices> points;
-    std::size_t count = 0;
-    if (scene.is_surface())
-        for (PointId v : mesh.cell(face.cell))
-            points[count++] = mesh.points[v];
-    else
-        for (PointId v : face_loop(mesh, face.cell, static_cast<int>(face.face)))
-            points[count++] = mesh.points[v];
-    return seen_face(std::span(points).first(count), eye);
-}
-
 // The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such
 // cells.
 class Peeling {
@@ -415,7 +400,7 @@ glm::dvec3 OrderChecker::witness(const Relations& relations, CellId front, CellI
             }
     for (const CellFace& exit : exits)
         for (const CellFace& entry : faces_with_side(back, Sign::positive)) {
-            const SeenFace f = seen(scene_, exit, eye), g = seen(scene_, entry, eye);
+            const SeenFace f = seen_face(scene_.mesh(), exit, eye), g = seen_face(scene_.mesh(), entry, eye);
             const Overlap overlap = face_overlap(f, g, eye);
             if (overlap == Overlap::nearer || overlap == Overlap::coincident)
                 return common_point(f, g, eye);

@@ -159,16 +159,7 @@ void Obstruction::look_from(const glm::dvec4& eye)
 
 SeenFace Obstruction::seen_face_of(CellId cell, int face) const
 {
-    const Mesh& mesh = scene_.mesh();
-    std::array<glm::dvec3, max_face_vertices> points;
-    std::size_t count = 0;
-    if (scene_.is_surface())
-        for (PointId v : mesh.cell(cell))
-            points[count++] = mesh.points[v];
-    else
-        for (PointId v : face_loop(mesh, cell, face))
-            points[count++] = mesh.points[v];
-    return seen_face(std::span(points).first(count), eye_);
+    return seen_face(scene_.mesh(), {cell, static_cast<std::uint32_t>(face)}, eye_);
 }
 
 // Whether all vertices of `other` lie on a side of a face's plane, or in it.

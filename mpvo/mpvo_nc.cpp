@@ -15,14 +15,6 @@ namespace {
 
 constexpr std::size_t prefetch_sources = 8; // their neighbours; they themselves twice as far ahead
 
-// Plain x86-64 has no instruction for this, and a library call a cell is slow.
-std::uint32_t bits_set(std::uint32_t byte)
-{
-    byte -= byte >> 1 & 0x55u;
-    byte = (byte & 0x33u) + (byte >> 2 & 0x33u);
-    return (byte + (byte >> 4)) & 0x0fu;
-}
-
 template <class Body>
 void in_parallel(std::size_t count, const Body& body)
 {
@@ -140,7 +132,8 @@ void MpvoNc::count_entry_faces(State* state)
     in_parallel(scene_.cell_count(), [&](std::size_t i) {
         const auto cell = static_cast<CellId>(i);
         const std::uint32_t interior = adjacency.interior[i];
-        state[i] = static_cast<State>((signs_.exit(cell) & interior) | bits_set(signs_.entry(cell) & interior) << row);
+        state[i] = static_cast<State>((signs_.exit(cell) & interior) |
+                                      std::uint32_t{bits_set[signs_.entry(cell) & interior]} << row);
     });
     for (std::size_t i = 0; i < source_count_; ++i)
         state[sources_[i]] = static_cast<State>(state[sources_[i]] + (1u << row));

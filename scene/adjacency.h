@@ -3,6 +3,7 @@
 #include "scene/cell_shape.h"
 #include "scene/large_array.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -26,6 +27,12 @@ struct Adjacency {
     {
         return {neighbour.data() + std::size_t{cell} * static_cast<std::size_t>(row_length),
                 static_cast<std::size_t>(row_length)};
+    }
+    /// Whether two different cells share a face.
+    bool joins(CellId a, CellId b) const
+    {
+        const auto of_a = row(a);
+        return std::find(of_a.begin(), of_a.end(), b) != of_a.end();
     }
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -28,5 +30,13 @@ int face_count(CellShape shape);
 /// the cell's vertices stand in VTK's order. Two for an edge of a triangle, else three or four.
 /// `face` is in [0, face_count(shape)).
 std::span<const std::uint8_t> face_vertices(CellShape shape, int face);
+
+/// How many faces a set of them holds, a bit a face. A table, because plain x86-64 has no instruction to count bits.
+inline constexpr auto bits_set = [] {
+    std::array<std::uint8_t, 1 << max_cell_faces> table{};
+    for (std::size_t bits = 1; bits < table.size(); ++bits)
+        table[bits] = static_cast<std::uint8_t>(table[bits / 2] + bits % 2);
+    return table;
+}();
 
 } // namespace visorder

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/boundary.h"
 #include "scene/exact_predicates.h"
 #include "scene/mesh.h"
 
@@ -28,6 +29,18 @@ inline FaceLoop face_loop(const Mesh& mesh, CellId cell, int face)
         if (std::find(loop.begin(), loop.end(), v) == loop.end())
             loop.vertices[static_cast<std::size_t>(loop.count++)] = v;
     }
+    return loop;
+}
+
+/// The same of a boundary face of a solid, or of a triangle of a surface, which is face 0 of itself.
+inline FaceLoop boundary_loop(const Mesh& mesh, const CellFace& face)
+{
+    if (mesh.shapes[face.cell] != CellShape::triangle)
+        return face_loop(mesh, face.cell, static_cast<int>(face.face));
+    FaceLoop loop;
+    for (PointId v : mesh.cell(face.cell))
+        if (std::find(loop.begin(), loop.end(), v) == loop.end())
+            loop.vertices[static_cast<std::size_t>(loop.count++)] = v;
     return loop;
 }
 

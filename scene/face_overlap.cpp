@@ -1,5 +1,7 @@
 #include "scene/face_overlap.h"
 
+#include "scene/face_loop.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -345,6 +347,14 @@ SeenFace seen_face(std::span<const glm::dvec3> face, const glm::dvec4& eye)
         std::rotate(seen.points.begin(), seen.points.begin() + 1, seen.points.begin() + seen.count);
     }
     return seen;
+}
+
+SeenFace seen_face(const Mesh& mesh, const CellFace& face, const glm::dvec4& eye)
+{
+    const FaceLoop loop = boundary_loop(mesh, face);
+    std::array<glm::dvec3, max_face_vertices> points;
+    std::transform(loop.begin(), loop.end(), points.begin(), [&](PointId v) { return mesh.points[v]; });
+    return seen_face(std::span(points).first(static_cast<std::size_t>(loop.count)), eye);
 }
 
 Overlap face_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye)

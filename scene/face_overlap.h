@@ -1,6 +1,8 @@
 #pragma once
 
+#include "scene/boundary.h"
 #include "scene/exact_predicates.h"
+#include "scene/mesh.h"
 
 #include <array>
 #include <glm/vec3.hpp>
@@ -29,6 +31,9 @@ struct SeenFace {
 
 /// `face` has up to four vertices in order around the face, which may repeat.
 SeenFace seen_face(std::span<const glm::dvec3> face, const glm::dvec4& eye);
+
+/// The same of a boundary face of a solid, or of a triangle of a surface (face 0 of itself).
+SeenFace seen_face(const Mesh& mesh, const CellFace& face, const glm::dvec4& eye);
 
 /// How F lies to G, decided exactly. The eye is homogeneous: the projection is along a direction (w = 0) or onto the
 /// sphere of directions around a position, so faces may lie anywhere around it. A face that is edge-on has no projected

@@ -1,7 +1,6 @@
 #include "sorting/boundary_relations.h"
 
 #include "scene/box_hierarchy.h"
-#include "scene/face_loop.h"
 #include "scene/face_overlap.h"
 #include "scene/scene.h"
 #include "sorting/projection_charts.h"
@@ -40,16 +39,6 @@ void in_parallel(std::size_t count, std::size_t grain, const Body& body)
     });
 }
 
-SeenFace seen(const Scene& scene, const CellFace& face, const glm::dvec4& eye)
-{
-    const Mesh& mesh = scene.mesh();
-    std::array<glm::dvec3, 4> points;
-    int count = 0;
-    for (PointId v : face_loop(mesh, face.cell, static_cast<int>(face.face)))
-        points[static_cast<std::size_t>(count++)] = mesh.points[v];
-    return seen_face(std::span(points).first(static_cast<std::size_t>(count)), eye);
-}
-
 ExitsAndEntries boundary_of_solids(const Scene& scene, const glm::dvec4& eye)
 {
     const std::vector<CellFace>& faces = scene.boundary().faces;
@@ -63,7 +52,8 @@ ExitsAndEntries boundary_of_solids(const Scene& scene, const glm::dvec4& eye)
         for (std::size_t i = 0; i < faces.size(); ++i)
             if (sides[i] == side)
                 chosen.push_back({{}, faces[i]});
-        in_parallel(chosen.size(), 1024, [&](std::size_t i) { chosen[i].seen = seen(scene, chosen[i].owner, eye); });
+        in_parallel(chosen.size(), 1024,
+                    [&](std::size_t i) { chosen[i].seen = seen_face(scene.mesh(), chosen[i].owner, eye); });
         return chosen;
     };
     return {with_side(Sign::negative), with_side(Sign::positive)};
@@ -71,13 +61,10 @@ ExitsAndEntries boundary_of_solids(const Scene& scene, const glm::dvec4& eye)
 
 ExitsAndEntries surface_triangles(const Scene& scene, const glm::dvec4& eye)
 {
-    const Mesh& mesh = scene.mesh();
     std::vector<BoundaryFace> triangles(scene.cell_count());
     in_parallel(triangles.size(), 1024, [&](std::size_t i) {
-        const auto cell = static_cast<CellId>(i);
-        const auto v = mesh.cell(cell);
-        const std::array<glm::dvec3, 3> points{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]};
-        triangles[i] = {seen_face(points, eye), {cell, 0}};
+        const CellFace triangle{static_cast<CellId>(i), 0};
+        triangles[i] = {seen_face(scene.mesh(), triangle, eye), triangle};
     });
     std::erase_if(triangles, [](const BoundaryFace& t) { return t.seen.turn == Sign::zero; });
     return {triangles, triangles};
@@ -107,12 +94,6 @@ ChartFaces faces_in_chart(const std::vector<BoundaryFace>& faces, const Projecti
         all.boxes.insert(all.boxes.end(), block.boxes.begin(), block.boxes.end());
     }
     return all;
-}
-
-bool share_face(const Adjacency& adjacency, CellId a, CellId b)
-{
-    const auto row = adjacency.row(a);
-    return std::find(row.begin(), row.end(), b) != row.end();
 }
 
 // Relations as numbers that ascend as they do, which sort faster.
@@ -195,7 +176,7 @@ private:
     void test(const BoundaryFace& f, const BoundaryFace& g, Found& found) const
     {
         const CellId front = f.owner.cell, back = g.owner.cell;
-        if (front == back || (adjacency_ != nullptr && share_face(*adjacency_, front, back)))
+        if (front == back || (adjacency_ != nullptr && adjacency_->joins(front, back)))
             return;
         if (surely_not_nearer(f.seen, g.seen))
             return;

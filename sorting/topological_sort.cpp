@@ -265,14 +265,6 @@ void list_together(const Frame<row, State>& frame, std::vector<Front>& fronts, s
     }
 }
 
-// How many of a cell's faces a set of them holds. A table, because plain x86-64 has no instruction to count bits.
-constexpr auto bits_set = [] {
-    std::array<std::uint8_t, 1 << max_cell_faces> table{};
-    for (std::size_t bits = 1; bits < table.size(); ++bits)
-        table[bits] = static_cast<std::uint8_t>(table[bits / 2] + bits % 2);
-    return table;
-}();
-
 // States of all cells from the sides of their faces.
 template <int row, class State>
 void count_relations(const Adjacency& adjacency, const FaceSigns& signs, State* state, CellId cells)

@@ -1,7 +1,6 @@
 #include "xmpvo/xmpvo.h"
 
 #include "scene/error.h"
-#include "scene/face_loop.h"
 #include "scene/face_overlap.h"
 
 #include <algorithm>
@@ -64,15 +63,6 @@ struct Found {
         }
     }
 };
-
-SeenFace seen(const Scene& scene, const CellFace& face, const glm::dvec4& eye)
-{
-    const Mesh& mesh = scene.mesh();
-    const FaceLoop loop = face_loop(mesh, face.cell, static_cast<int>(face.face));
-    std::array<glm::dvec3, max_face_vertices> points;
-    std::transform(loop.begin(), loop.end(), points.begin(), [&](PointId v) { return mesh.points[v]; });
-    return seen_face(std::span(points).first(static_cast<std::size_t>(loop.count)), eye);
-}
 
 } // namespace
 
@@ -138,11 +128,10 @@ void Xmpvo::confirm(const glm::dvec4& eye)
             const CellFace& front = faces[exit_face];
             const CellFace& back = faces[static_cast<std::uint32_t>(pairs_[i])];
             if (i == range.begin() || exit_face != pairs_[i - 1] >> 32)
-                exit = seen(scene_, front, eye);
-            const auto row = adjacency.row(front.cell);
-            if (front.cell == back.cell || std::find(row.begin(), row.end(), back.cell) != row.end())
+                exit = seen_face(scene_.mesh(), front, eye);
+            if (front.cell == back.cell || adjacency.joins(front.cell, back.cell))
                 continue;
-            const Overlap overlap = face_overlap(exit, seen(scene_, back, eye), eye);
+            const Overlap overlap = face_overlap(exit, seen_face(scene_.mesh(), back, eye), eye);
             if (overlap == Overlap::nearer || overlap == Overlap::coincident)
                 confirmed.push_back({front.cell, back.cell});
         }

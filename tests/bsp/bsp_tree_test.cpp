@@ -24,18 +24,6 @@
 namespace visorder {
 namespace {
 
-std::vector<glm::dvec3> points_of(const Scene& scene, const CellFace& face)
-{
-    std::vector<glm::dvec3> points;
-    if (scene.is_surface())
-        for (PointId v : scene.mesh().cell(face.cell))
-            points.push_back(scene.mesh().points[v]);
-    else
-        for (PointId v : face_loop(scene.mesh(), face.cell, static_cast<int>(face.face)))
-            points.push_back(scene.mesh().points[v]);
-    return points;
-}
-
 bool has_area(const std::vector<glm::dvec3>& points)
 {
     for (std::size_t i = 2; i < points.size(); ++i)

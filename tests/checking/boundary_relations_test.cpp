@@ -1,4 +1,3 @@
-#include "scene/face_loop.h"
 #include "scene/face_overlap.h"
 #include "scene/scene.h"
 #include "small_scenes.h"
@@ -12,18 +11,6 @@
 
 namespace visorder {
 namespace {
-
-std::vector<glm::dvec3> points_of(const Scene& scene, const CellFace& face)
-{
-    std::vector<glm::dvec3> points;
-    if (scene.is_surface())
-        for (PointId v : scene.mesh().cell(face.cell))
-            points.push_back(scene.mesh().points[v]);
-    else
-        for (PointId v : face_loop(scene.mesh(), face.cell, static_cast<int>(face.face)))
-            points.push_back(scene.mesh().points[v]);
-    return points;
-}
 
 // All pairs, without an index.
 BoundaryRelations all_pairs(const Scene& scene, const glm::dvec4& eye)

@@ -2,6 +2,7 @@
 
 #include "brute_force.h"
 #include "scene/exact_predicates.h"
+#include "scene/face_loop.h"
 #include "scene/scene.h"
 
 #include <algorithm>
@@ -319,6 +320,14 @@ Mesh squashed_delaunay(std::uint64_t seed)
     for (std::size_t i = 0; i < mesh.points.size(); i += 1 + seed % 3)
         mesh.points[i].z = 20;
     return mesh;
+}
+
+std::vector<glm::dvec3> points_of(const Scene& scene, const CellFace& face)
+{
+    std::vector<glm::dvec3> points;
+    for (PointId v : boundary_loop(scene.mesh(), face))
+        points.push_back(scene.mesh().points[v]);
+    return points;
 }
 
 std::vector<glm::dvec4> small_scene_eyes(const Scene& scene, std::uint64_t seed)

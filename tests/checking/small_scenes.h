@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/boundary.h"
 #include "scene/mesh.h"
 
 #include <array>
@@ -91,6 +92,9 @@ Mesh flat_cells();
 /// A carved Delaunay mesh, every few points of which were moved to one plane: many flat, inverted and overlapping
 /// cells.
 Mesh squashed_delaunay(std::uint64_t seed);
+
+/// The points of a boundary face of a solid, or of a triangle of a surface.
+std::vector<glm::dvec3> points_of(const Scene& scene, const CellFace& face);
 
 /// Eyes with integer coordinates, or directions, that are hard on this scene: far and near ones, at a vertex, in the
 /// middle, in planes of faces, along the axes.
