@@ -86,13 +86,13 @@ void FunctionTextures::set(const OpticalPieces& pieces)
     context_->check();
 }
 
-void FunctionTextures::introduce(Program& program, bool pieces, bool table) const
+void FunctionTextures::introduce(Program& program, bool pieces) const
 {
     if (pieces) {
         program.set("pieces", static_cast<int>(pieces_unit));
         program.set("first_piece", static_cast<int>(first_piece_unit));
     }
-    if (table && has_table(integrator_)) {
+    if (has_table(integrator_)) {
         program.set("table", static_cast<int>(table_unit));
         program.set("length_scale", static_cast<float>(length_scale_));
         if (integrator_ == Integrator::preintegrated_3d)

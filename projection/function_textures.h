@@ -31,8 +31,8 @@ public:
     /// Computes what the integrator needs.
     void set(const OpticalPieces& pieces);
 
-    /// Tells a program where it all is. `pieces`: whether the program reads the pieces, `lights` whether the table.
-    void introduce(Program& program, bool pieces, bool table) const;
+    /// Tells a program where it all is. `pieces`: whether the program reads the pieces.
+    void introduce(Program& program, bool pieces) const;
 
     void bind() const;
 

@@ -28,12 +28,12 @@ Kind named(std::span<const Kind> kinds, const char* what, std::string_view wante
 const char* name(Projector projector)
 {
     switch (projector) {
+    case Projector::silhouette:
+        return "silhouette";
     case Projector::planes:
         return "planes";
     case Projector::thick:
         return "thick";
-    case Projector::thick_gpu:
-        return "thick-gpu";
     }
     return "";
 }
@@ -57,7 +57,7 @@ const char* name(Integrator integrator)
 
 std::span<const Projector> projectors()
 {
-    static constexpr std::array<Projector, 3> all{Projector::planes, Projector::thick, Projector::thick_gpu};
+    static constexpr std::array<Projector, 3> all{Projector::silhouette, Projector::planes, Projector::thick};
     return all;
 }
 

@@ -16,7 +16,7 @@ std::string header(Integrator integrator)
     return text;
 }
 
-constexpr const char* record_text = R"(
+constexpr const char* planes_vertex_text = R"(
 layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
 layout(std430, binding = 1) readonly buffer Records { uvec4 records[]; };
 uniform float lattice_steps;
@@ -97,14 +97,14 @@ void main()
     bool quad = kind >= 2u;
     vec2 s0 = snapped(point0), s1 = snapped(point1), s2 = snapped(point2), s3 = snapped(point3);
 
-    // Of a triangle: which of the three faces around the inner point.
+    // Of a triangle: which of the three faces around the inner point. Never one without area.
     vec2 from0 = pixel - s0;
     float turn = sign(area(s2 - s1, s3 - s1));
     float by1 = turn * area(s1 - s0, from0);
     float by2 = turn * area(s2 - s0, from0);
     float by3 = turn * area(s3 - s0, from0);
-    bool in23 = by2 >= 0.0 && by3 < 0.0;
-    bool in31 = !in23 && by3 >= 0.0 && by1 < 0.0;
+    bool in23 = by2 >= 0.0 && by3 <= 0.0 && turn * area(s2 - s0, s3 - s0) > 0.0;
+    bool in31 = !in23 && by3 >= 0.0 && by1 <= 0.0 && turn * area(s3 - s0, s1 - s0) > 0.0;
     // Of a quad: the face before is that of the nearer edge and the third point drawn, the face behind that of the
     // farther edge and an end of the nearer.
     bool third = kind == 2u;
@@ -152,6 +152,82 @@ void main()
     result = light_of(front, back, len, swapped ? b_optics : a_optics, swapped ? a_optics : b_optics);
 #else
     result = light_of(front, back, len, vec4(0.0), vec4(0.0));
+#endif
+}
+)";
+
+constexpr const char* silhouette_vertex_text = R"(
+struct Triangle {
+    vec4 place, k12, k3_bases, slopes;
+    vec2 corners[4];
+#ifdef OPTICS
+    vec4 colours[5];
+#endif
+};
+layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
+uniform float half_range;
+
+flat out vec4 place, k12, k3_bases, slopes;
+#ifdef OPTICS
+flat out vec4 colours[5];
+#endif
+
+void main()
+{
+    int triangle = gl_VertexID / 3;
+    place = triangles[triangle].place;
+    k12 = triangles[triangle].k12;
+    k3_bases = triangles[triangle].k3_bases;
+    slopes = triangles[triangle].slopes;
+#ifdef OPTICS
+    for (int i = 0; i < 5; ++i)
+        colours[i] = triangles[triangle].colours[i];
+#endif
+    // Dividing by a power of two is exact, and the viewport multiplies again.
+    gl_Position = vec4(triangles[triangle].corners[gl_VertexID - 3 * triangle] / half_range, 0.0, 1.0);
+}
+)";
+
+// See Thickness.
+constexpr const char* silhouette_text = R"(
+flat in vec4 place, k12, k3_bases, slopes;
+#ifdef OPTICS
+flat in vec4 colours[5];
+#endif
+uniform float inverse_distance;
+
+void main()
+{
+    vec2 pixel = gl_FragCoord.xy - centre;
+    vec2 r = pixel + 16384.0 - abs(place.xy);
+    bool quad = place.x < 0.0;
+    float t1 = dot(k12.xy, r) + (quad ? 1.0 : 0.0);
+    float t2 = dot(k12.zw, r);
+    float t3 = quad ? t1 * k3_bases.x : dot(k3_bases.xy, r);
+    float g = quad ? max(t2, t2 * k3_bases.y) : 0.0;
+    float m = quad ? max(t1, t3) : max(max(t1, t2), t3);
+    float thickness = 1.0 - g - m;
+    vec2 one = k3_bases.zw + slopes.xz * r.x + slopes.yw * r.y + place.zw * g;
+    vec2 other = one + place.zw * thickness;
+    // Back from what is linear on the screen.
+    float one_scale = 1.0 - one.x * inverse_distance;
+    float other_scale = 1.0 - other.x * inverse_distance;
+    float scale = 1.0 / (one_scale * other_scale);
+    float len = place.z * thickness * scale * length_per_depth(pixel);
+    float one_scalar = one.y * other_scale * scale;
+    float other_scalar = other.y * one_scale * scale;
+    bool swapped = place.y < 0.0;
+#ifdef OPTICS
+    vec4 optics = colours[0] + colours[1] * r.x + colours[2] * r.y + colours[3] * g + colours[4] * m;
+#endif
+#ifdef LINEAR
+    result = vec4(optics.rgb * optics.w, optics.w);
+#else
+#ifndef OPTICS
+    vec4 optics = vec4(0.0);
+#endif
+    result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, swapped ? -len : len,
+                      optics, optics);
 #endif
 }
 )";
@@ -208,11 +284,18 @@ void main()
 
 } // namespace
 
-ShaderPair planes_shaders(Integrator integrator)
+ShaderPair triangle_shaders(Projector projector, Integrator integrator)
 {
-    const std::string optics = needs_optics(integrator) ? optics_shader() : "";
-    return {header(integrator) + optics + record_text,
-            header(integrator) + ray_text + integrator_shader(integrator) + planes_text};
+    const std::string start = header(integrator);
+    const std::string fragment = start + ray_text + integrator_shader(integrator);
+    switch (projector) {
+    case Projector::silhouette:
+        return {start + silhouette_vertex_text, fragment + silhouette_text};
+    case Projector::thick:
+    case Projector::planes:
+        return {start + (needs_optics(integrator) ? optics_shader() : "") + planes_vertex_text, fragment + planes_text};
+    }
+    return {};
 }
 
 ShaderPair near_cell_shaders(Integrator integrator)

@@ -12,8 +12,8 @@ struct ShaderPair {
     std::string fragment;
 };
 
-/// Triangles of TriangleRecords, whose fragments find their ray's entry and exit on the faces.
-ShaderPair planes_shaders(Integrator integrator);
+/// What PlaneTriangles, SilhouetteTriangles and ThickTriangles make.
+ShaderPair triangle_shaders(Projector projector, Integrator integrator);
 
 /// A rectangle around one NearCell.
 ShaderPair near_cell_shaders(Integrator integrator);

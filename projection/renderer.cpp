@@ -3,7 +3,8 @@
 #include "projection/integrator_shaders.h"
 #include "projection/near_cell.h"
 #include "projection/projector_shaders.h"
-#include "projection/triangle_records.h"
+#include "projection/plane_triangles.h"
+#include "projection/silhouette_triangles.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -29,10 +30,10 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr std::size_t stretch_cells = 32768;
+constexpr std::size_t stretch_cells = 16384;
 constexpr std::size_t block_cells = 1024;
-constexpr std::size_t ring_segments = 4;
-constexpr std::size_t most_triangle_bytes = 32; // two a cell
+constexpr std::size_t ring_segments = 3;
+constexpr std::size_t ring_segment_bytes = std::size_t{4} << 20;
 
 constexpr GLuint points_binding = 0;
 constexpr GLuint triangles_binding = 1;
@@ -132,6 +133,19 @@ FunctionTextures make_textures(const Context& context, const Scene& scene, const
     return {context, options.integrator, options.tables, way_lengths(scene.mesh())};
 }
 
+std::unique_ptr<const CellTriangles> make_triangles(Projector projector, const TriangleSources& sources)
+{
+    if (projector == Projector::silhouette)
+        return std::make_unique<SilhouetteTriangles>(sources);
+    return std::make_unique<PlaneTriangles>(*sources.cells);
+}
+
+UploadRing make_ring(const Context& context)
+{
+    const Context::Current current(context);
+    return {context, ring_segment_bytes, ring_segments};
+}
+
 } // namespace
 
 /// What one part of the order becomes. Blocks are made by threads of their own, each into its place.
@@ -140,7 +154,7 @@ struct ProjectionRenderer::Stretch {
         std::size_t triangles = 0;
         std::vector<CellOffLattice> off_lattice;
     };
-    std::vector<std::byte> triangles; // block by block, each with room for all it can have
+    LargeArray<std::byte> triangles; // block by block, each with room for all it can have
     std::vector<Block> blocks;
     std::vector<CellId> cells; // inner numbering
     double seconds = 0;
@@ -149,9 +163,9 @@ struct ProjectionRenderer::Stretch {
 ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scene, const TransferFunction& function,
                                        const RenderOptions& options)
     : context_(&context), scene_(&checked(scene)), options_(options), lattice_(raster_lattice(context)),
-      triangle_program_(make_program(context, "cell projection", planes_shaders(options.integrator))),
+      triangle_program_(make_program(context, "cell projection", triangle_shaders(options.projector, options.integrator))),
       near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator))),
-      function_(make_textures(context, scene, options)), ring_(context, stretch_cells * most_triangle_bytes, ring_segments)
+      function_(make_textures(context, scene, options)), ring_(make_ring(context))
 {
     const Context::Current current(context);
     framebuffer_format(options.blending_bits);
@@ -185,6 +199,14 @@ void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
     const Context::Current current(*context_);
     const ScalarRange range = scalar_range(scene_->mesh());
     function_.set(optical_pieces(function, range.lowest, range.range));
+    if (!needs_optics(options_.integrator) || options_.projector == Projector::planes)
+        return;
+    const auto& scalars = scene_->mesh().scalars;
+    optics_.resize(scalars.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, scalars.size(), [&](std::size_t i) {
+        const OpticalPoint point = function.at(static_cast<double>(scalars[i]));
+        optics_[i] = glm::vec4(point.colour, point.extinction);
+    });
 }
 
 void ProjectionRenderer::prepare(const Order& order, std::size_t first, const CellTriangles& triangles,
@@ -217,34 +239,41 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
 void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles)
 {
     const GlFunctions& gl = context_->gl();
-    const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangles.triangle_bytes();
-    std::byte* into = ring_.next();
-    std::size_t written = 0;
-    std::size_t drawn = 0;
-    std::vector<CellOffLattice> off_lattice;
-    for (std::size_t b = 0; b < stretch.blocks.size(); ++b) {
-        const Stretch::Block& block = stretch.blocks[b];
-        for (const CellOffLattice& cell : block.off_lattice)
-            off_lattice.push_back({cell.triangles_before + static_cast<std::uint32_t>(written), cell.cell});
-        std::copy_n(stretch.triangles.data() + b * block_bytes, block.triangles * triangles.triangle_bytes(),
-                    into + written * triangles.triangle_bytes());
-        written += block.triangles;
+    const std::size_t triangle_bytes = triangles.triangle_bytes();
+    const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangle_bytes;
+    std::size_t b = 0;
+    while (b < stretch.blocks.size()) {
+        // As many blocks as a segment holds; it holds one at least.
+        std::byte* into = ring_.next();
+        std::size_t written = 0;
+        std::vector<CellOffLattice> off_lattice;
+        for (; b < stretch.blocks.size(); ++b) {
+            const Stretch::Block& block = stretch.blocks[b];
+            if ((written + block.triangles) * triangle_bytes > ring_.segment_bytes())
+                break;
+            for (const CellOffLattice& cell : block.off_lattice)
+                off_lattice.push_back({cell.triangles_before + static_cast<std::uint32_t>(written), cell.cell});
+            std::copy_n(stretch.triangles.data() + b * block_bytes, block.triangles * triangle_bytes,
+                        into + written * triangle_bytes);
+            written += block.triangles;
+        }
+        ring_.bind(triangles_binding);
+        std::size_t drawn = 0;
+        const auto draw_up_to = [&](std::size_t end) {
+            if (end == drawn)
+                return;
+            triangle_program_.use();
+            gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
+            drawn = end;
+        };
+        for (const CellOffLattice& cell : off_lattice) {
+            draw_up_to(cell.triangles_before);
+            draw_near_cell(screen, cell.cell);
+        }
+        draw_up_to(written);
+        ring_.issued();
+        statistics_.triangles += written;
     }
-    ring_.bind(triangles_binding);
-    const auto draw_up_to = [&](std::size_t end) {
-        if (end == drawn)
-            return;
-        triangle_program_.use();
-        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
-        drawn = end;
-    };
-    for (const CellOffLattice& cell : off_lattice) {
-        draw_up_to(cell.triangles_before);
-        draw_near_cell(screen, cell.cell);
-    }
-    draw_up_to(written);
-    ring_.issued();
-    statistics_.triangles += written;
     statistics_.prepare_s += stretch.seconds;
 }
 
@@ -301,12 +330,14 @@ void ProjectionRenderer::set_up(const Screen& screen)
         program->set("ray_y", rays[1]);
         program->set("ray_1", rays[2]);
     }
-    triangle_program_.set("lattice_steps", static_cast<float>(lattice_.steps));
     triangle_program_.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
+    if (options_.projector == Projector::planes)
+        triangle_program_.set("lattice_steps", static_cast<float>(lattice_.steps));
     near_cell_program_.set("first_depth", screen.perspective() ? 0.0F : -1e30F);
-    const bool pieces = needs_optics(options_.integrator) || options_.integrator == Integrator::exact;
-    function_.introduce(triangle_program_, pieces, true);
-    function_.introduce(near_cell_program_, pieces, true);
+    const bool exact = options_.integrator == Integrator::exact;
+    const bool optics = needs_optics(options_.integrator);
+    function_.introduce(triangle_program_, exact || (optics && options_.projector == Projector::planes));
+    function_.introduce(near_cell_program_, exact || optics);
     function_.bind();
 }
 
@@ -330,7 +361,11 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     statistics_.place_s = seconds_since(start);
 
     start = Clock::now();
-    const SilhouetteTriangles triangles(*scene_, turned_, points_, screen, lattice_);
+    const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
+    const TriangleSources sources{scene_,  &screen,  &visible, lattice_,
+                                  optics_, options_.integrator == Integrator::linear};
+    const std::unique_ptr<const CellTriangles> made = make_triangles(options_.projector, sources);
+    const CellTriangles& triangles = *made;
     const std::size_t cells = order.back_to_front.size();
     prepare(order, 0, triangles, *stretches_[0]);
     for (std::size_t first = 0, i = 0; first < cells; first += stretch_cells, ++i) {

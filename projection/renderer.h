@@ -22,7 +22,7 @@
 namespace visorder {
 
 struct RenderOptions {
-    Projector projector = Projector::planes;
+    Projector projector = Projector::silhouette;
     Integrator integrator = Integrator::exact;
     int blending_bits = 32; ///< of a channel of the framebuffer: 32 or 16 (floats), or 8
     TableOptions tables;
@@ -81,6 +81,7 @@ private:
     RasterLattice lattice_;
     std::vector<float> scalars_;       // 0 to 1 over the scene
     std::vector<std::uint8_t> turned_; // of each cell
+    std::vector<glm::vec4> optics_;    // of each point, where the integrator interpolates them
     LargeArray<CellId> inner_cells_;   // of each of the caller's cells
     Program triangle_program_;
     Program near_cell_program_;

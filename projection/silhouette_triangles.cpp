@@ -1,0 +1,231 @@
+#include "projection/silhouette_triangles.h"
+
+#include "scene/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+namespace visorder {
+
+namespace {
+
+// What the vertex shader reads, in floats: see projector_shaders.cpp.
+constexpr std::size_t plain_floats = 24;
+constexpr std::size_t optics_floats = 20;
+// Added to a place, in pixels, so that its coordinates are positive and their signs can say something else.
+constexpr float place_offset = 16384;
+
+glm::vec4 combined(const std::array<glm::vec4, 4>& values, const std::array<double, 4>& shares)
+{
+    glm::vec4 sum(0);
+    for (std::size_t i = 0; i < 4; ++i)
+        sum += static_cast<float>(shares[i]) * values[i];
+    return sum;
+}
+
+double length_at(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
+{
+    const Screen& screen = *from.screen;
+    const double inverse = screen.inverse_distance();
+    const glm::dvec2 pixel = glm::dvec2(cell.at[0]) / static_cast<double>(from.lattice.steps) + point.at;
+    return (point.back_depth - point.front_depth) /
+           ((1 - point.front_depth * inverse) * (1 - point.back_depth * inverse)) *
+           glm::length(screen.rays() * glm::dvec3(pixel, 1));
+}
+
+} // namespace
+
+CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
+{
+    CellOptics optics{};
+    for (std::size_t i = 0; i < 4; ++i)
+        optics.at_points[i] = from.optics[cell.points[i]];
+    optics.at_thickest =
+        0.5F * (combined(optics.at_points, point.front_shares) + combined(optics.at_points, point.back_shares));
+    if (from.opacity_at_thickest) {
+        for (glm::vec4& o : optics.at_points)
+            o.w = 0;
+        optics.at_thickest.w =
+            static_cast<float>(-std::expm1(-static_cast<double>(optics.at_thickest.w) * length_at(from, cell, point)));
+    }
+    return optics;
+}
+
+struct SilhouetteTriangles::Writer {
+    const SilhouetteTriangles& triangles;
+    float* next;
+    std::size_t count = 0;
+
+    void put(float value) { *next++ = value; }
+    void put(const glm::vec2& value)
+    {
+        put(value.x);
+        put(value.y);
+    }
+
+    // One triangle with the corners given, in lattice steps.
+    void put(const Thickness& t, const glm::ivec2& reference, const std::array<glm::ivec2, 3>& corners,
+             const std::array<glm::vec4, 5>& colours)
+    {
+        const auto step = static_cast<float>(triangles.pixels_a_step_);
+        const glm::vec2 place = glm::vec2(reference) * step + place_offset;
+        put(t.kind == SilhouetteClass::quad ? -place.x : place.x);
+        put(t.swapped ? -place.y : place.y);
+        put(t.depth_rise);
+        put(t.scalar_rise);
+        put(t.k1);
+        put(t.k2);
+        put(t.k3);
+        put(t.depth_base);
+        put(t.scalar_base);
+        put(t.depth_slope);
+        put(t.scalar_slope);
+        for (const glm::ivec2& corner : corners)
+            put(glm::vec2(corner) * step);
+        put(glm::vec2(0));
+        if (!triangles.from_.optics.empty()) {
+            std::memcpy(next, colours.data(), sizeof colours);
+            next += optics_floats;
+        }
+        ++count;
+    }
+
+    void put_cell(const VisibleCell& cell)
+    {
+        const CellValues values = values_of(cell, triangles.from_.cells->points(), triangles.inverse_distance_);
+        const Thickness t = thickness_of(cell, values, triangles.pixels_a_step_);
+        std::array<glm::vec4, 5> colours{};
+        if (!triangles.from_.optics.empty()) {
+            const ThickPoint point = thick_point(cell, values, triangles.pixels_a_step_);
+            const CellOptics optics = optics_of(triangles.from_, cell, point);
+            colours = t.interpolate(optics.at_points, optics.at_thickest);
+        }
+        if (cell.kind == SilhouetteClass::triangle) {
+            put(t, cell.at[0], {cell.at[1], cell.at[2], cell.at[3]}, colours);
+            return;
+        }
+        if (cell.first_half)
+            put(t, cell.at[0], {cell.at[0], cell.at[1], cell.at[2]}, colours);
+        if (cell.second_half)
+            put(t, cell.at[0], {cell.at[0], cell.at[1], cell.at[3]}, colours);
+    }
+
+    // The way between a boundary face on the lattice and where it is.
+    void put_slab(const std::array<PointId, 3>& face, bool entry)
+    {
+        const ScreenPoints& points = triangles.from_.cells->points();
+        const double step = triangles.pixels_a_step_;
+        std::array<glm::ivec2, 3> at;
+        std::array<glm::dvec2, 3> exact;
+        std::array<glm::dvec2, 3> snapped;
+        std::array<double, 3> depth;
+        std::array<double, 3> scalar;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::vec4& p = points.exact[face[i]];
+            at[i] = points.snapped[face[i]];
+            exact[i] = {p.x, p.y};
+            snapped[i] = glm::dvec2(at[i]) * step;
+            depth[i] = p.z;
+            scalar[i] = p.w * (1 - depth[i] * triangles.inverse_distance_);
+        }
+        const auto slope_of = [](const std::array<glm::dvec2, 3>& p, const std::array<double, 3>& value) {
+            const glm::dvec2 b = p[1] - p[0];
+            const glm::dvec2 c = p[2] - p[0];
+            const glm::dvec2 sum = (value[1] - value[0]) * glm::dvec2(c.y, -c.x) -
+                                   (value[2] - value[0]) * glm::dvec2(b.y, -b.x);
+            return sum / (b.x * c.y - b.y * c.x);
+        };
+        const glm::dvec2 exact_slope = slope_of(exact, depth);
+        std::array<double, 3> missing;
+        double most = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            missing[i] = glm::dot(exact_slope, snapped[i] - exact[i]);
+            most = std::max(most, std::abs(missing[i]));
+        }
+        // A face that hardly shows is as wide as it has been displaced: its plane means nothing at a pixel.
+        const auto [nearest, farthest] = std::minmax_element(depth.begin(), depth.end());
+        if (!(most > 0 && most < 0.5 * (*farthest - *nearest)))
+            return;
+        const glm::dvec2 missing_slope = slope_of(snapped, missing);
+        // As a thickness rise (1 - k.r), with k.r in place of the largest of three.
+        const double rise = std::copysign(std::max(std::abs(missing[0]), 1e-6 * most), missing[0]);
+        Thickness t{};
+        t.kind = SilhouetteClass::triangle;
+        t.k1 = t.k2 = t.k3 = glm::vec2(-missing_slope / rise);
+        t.depth_base = static_cast<float>(depth[0]);
+        t.scalar_base = static_cast<float>(scalar[0]);
+        t.depth_slope = glm::vec2(slope_of(snapped, depth));
+        t.scalar_slope = glm::vec2(slope_of(snapped, scalar));
+        t.depth_rise = static_cast<float>(rise);
+        t.scalar_rise =
+            static_cast<float>(-rise * triangles.inverse_distance_ * static_cast<double>(points.exact[face[0]].w));
+        t.swapped = entry;
+        std::array<glm::vec4, 5> colours{};
+        if (const auto optics = triangles.from_.optics; !optics.empty()) {
+            colours[0] = optics[face[0]];
+            for (int k = 0; k < 4; ++k) {
+                const glm::dvec2 slope =
+                    slope_of(snapped, {optics[face[0]][k], optics[face[1]][k], optics[face[2]][k]});
+                colours[1][k] = static_cast<float>(slope.x);
+                colours[2][k] = static_cast<float>(slope.y);
+            }
+        }
+        put(t, at[0], at, colours);
+    }
+
+    void put_slabs(CellId cell, bool entries)
+    {
+        const Scene& scene = *triangles.from_.scene;
+        const std::uint8_t interior = scene.adjacency().interior[cell];
+        const auto v = scene.mesh().cell(cell);
+        const VisibleCells& cells = *triangles.from_.cells;
+        for (int f = 0; f < 4; ++f) {
+            if ((interior >> f & 1) != 0)
+                continue;
+            const auto corners = face_vertices(CellShape::tetrahedron, f);
+            const std::array<PointId, 3> face{v[corners[0]], v[corners[1]], v[corners[2]]};
+            const glm::ivec2 a = cells.points().snapped[face[0]];
+            const glm::ivec2 b = cells.points().snapped[face[1]];
+            const glm::ivec2 c = cells.points().snapped[face[2]];
+            const std::int64_t area = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+            const bool entry = (area > 0) != cells.turned(cell);
+            if (area != 0 && entry == entries && cells.covers_a_centre(a, b, c))
+                put_slab(face, entry);
+        }
+    }
+};
+
+SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources)
+    : from_(sources), pixels_a_step_(1.0 / sources.lattice.steps), inverse_distance_(sources.screen->inverse_distance())
+{
+}
+
+std::size_t SilhouetteTriangles::triangle_bytes() const
+{
+    return (plain_floats + (from_.optics.empty() ? 0 : optics_floats)) * sizeof(float);
+}
+
+std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, std::byte* into,
+                                      std::vector<CellOffLattice>& off_lattice) const
+{
+    Writer writer{*this, reinterpret_cast<float*>(into)};
+    const auto& interior = from_.scene->adjacency().interior;
+    constexpr std::uint8_t all_faces = 15;
+    from_.cells->visit(
+        cells,
+        [&](const VisibleCell& cell) {
+            // Opacity between vertices is not that of a length, so no length can be made good.
+            const bool slabs = interior[cell.cell] != all_faces && !from_.opacity_at_thickest;
+            if (slabs)
+                writer.put_slabs(cell.cell, false);
+            writer.put_cell(cell);
+            if (slabs)
+                writer.put_slabs(cell.cell, true);
+        },
+        [&](CellId cell) { off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell}); });
+    return writer.count;
+}
+
+} // namespace visorder

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "projection/visible_cells.h"
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+namespace visorder {
+
+/// What a cell is at its thickest point: where its inner point is seen, or where the two edges of a quad cross. Shirley
+/// and Tuchman's triangles have it as a corner, and thickness falls from it to zero along the silhouette.
+struct ThickPoint {
+    glm::dvec2 at;                   ///< pixels from VisibleCell::points[0]
+    double front_depth, back_depth;  ///< projective, see Screen
+    double front_scalar, back_scalar; ///< each multiplied by 1 - depth / D
+    std::array<double, 4> front_shares, back_shares; ///< of the cell's points in its two ends
+};
+
+/// The projective depths of a cell's points, and their scalars multiplied by 1 - depth / D: what is linear on the
+/// screen. In the order of VisibleCell::points.
+struct CellValues {
+    std::array<double, 4> depth;
+    std::array<double, 4> scalar;
+};
+CellValues values_of(const VisibleCell& cell, const ScreenPoints& points, double inverse_distance);
+
+ThickPoint thick_point(const VisibleCell& cell, const CellValues& values, double pixels_a_step);
+
+/// Entry and exit of rays through a cell, as functions of the pixel r, relative to VisibleCell::points[0], that take a
+/// few multiplications. Let
+///
+///     t1 = k1.r,  t2 = k2.r,  t3 = k3.r;         g = 0,              m = max(t1, t2, t3)     of a triangle,
+///     t1 = 1 + k1.r,  t2 = k2.r,  t3 = k3.x t1;  g = max(t2, k3.y t2),  m = max(t1, t3)      of a quad;
+///
+/// then 1 - g - m is 1 at the thickest point and falls to 0 along the silhouette, linearly on each of Shirley and
+/// Tuchman's triangles. (Of a quad, t1 and t2 are coordinates along its two crossing edges, from where they cross.)
+/// What is linear on the cell's faces, such as a depth, is
+///
+///     base + slope.r + rise g     on one side,     and that + rise (1 - g - m)     on the other.
+struct Thickness {
+    glm::vec2 k1, k2, k3;
+    glm::vec2 depth_slope, scalar_slope;
+    float depth_base, depth_rise;
+    float scalar_base, scalar_rise;
+    bool swapped; ///< whether the second side is the one in front
+
+    /// A quantity given at each of the cell's points, and at the thickest point, is
+    /// colours[0] + colours[1] r.x + colours[2] r.y + colours[3] g + colours[4] m.
+    std::array<glm::vec4, 5> interpolate(const std::array<glm::vec4, 4>& at_points, const glm::vec4& at_thickest) const;
+
+    // Shares of the first two coordinates in an interpolated quantity; see the source.
+    SilhouetteClass kind;
+    std::array<double, 3> inner_shares; ///< of the three outer points at the inner one
+    std::array<glm::dvec2, 3> share_slopes;
+    double opposite1, opposite2; ///< of a quad, t1 at the second point and t2 at the fourth: below 0
+    glm::dvec2 k1_exact, k2_exact;
+};
+
+Thickness thickness_of(const VisibleCell& cell, const CellValues& values, double pixels_a_step);
+
+} // namespace visorder
