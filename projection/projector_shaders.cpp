@@ -207,6 +207,8 @@ void main()
     float g = quad ? max(t2, t2 * k3_bases.y) : 0.0;
     float m = quad ? max(t1, t3) : max(max(t1, t2), t3);
     float thickness = 1.0 - g - m;
+    // The triangle drawn may reach beyond a quad.
+    thickness = quad ? max(thickness, 0.0) : thickness;
     vec2 one = k3_bases.zw + slopes.xz * r.x + slopes.yw * r.y + place.zw * g;
     vec2 other = one + place.zw * thickness;
     // Back from what is linear on the screen.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <optional>
 
 namespace visorder {
 
@@ -23,6 +24,54 @@ glm::vec4 combined(const std::array<glm::vec4, 4>& values, const std::array<doub
     for (std::size_t i = 0; i < 4; ++i)
         sum += static_cast<float>(shares[i]) * values[i];
     return sum;
+}
+
+// A triangle around a quad that is little larger, if there is one: the sides next to one of the quad's sides meet beyond
+// it. One triangle in place of two, and thickness is zero where the quad is not. (Of a quad, points 0 and 1 are opposite
+// corners, as are 2 and 3.)
+std::optional<std::array<glm::vec2, 3>> triangle_around(const std::array<glm::ivec2, 4>& at, double pixels_a_step)
+{
+    constexpr double most_added = 0.6;   // of the quad's area
+    constexpr double least_sine = 0.05;  // of the angle at the new corner
+    constexpr double margin = 1.0 / 128; // pixels: the new corner will be rounded to the lattice
+    const std::array<glm::dvec2, 4> v{glm::dvec2(at[0] - at[0]), glm::dvec2(at[2] - at[0]), glm::dvec2(at[1] - at[0]),
+                                      glm::dvec2(at[3] - at[0])};
+    const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+    const double area = std::abs(cross(v[2] - v[0], v[3] - v[1]));
+    double least = most_added * area;
+    std::size_t best = 4;
+    double best_way = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const glm::dvec2 side = v[(i + 1) % 4] - v[i];
+        const glm::dvec2 before = v[i] - v[(i + 3) % 4];
+        const glm::dvec2 after = v[(i + 1) % 4] - v[(i + 2) % 4];
+        const double turn = cross(before, after);
+        if (turn == 0)
+            continue;
+        const double way = cross(side, after) / turn;
+        const double added = std::abs(cross(side, before)) * way;
+        // The sides meet beyond this one, and not on the quad's other side.
+        if (way > 0 && cross(side, before) / turn > 0 && added < least) {
+            least = added;
+            best = i;
+            best_way = way;
+        }
+    }
+    if (best == 4)
+        return std::nullopt;
+    const glm::dvec2 before = v[best] - v[(best + 3) % 4];
+    const glm::dvec2 after = v[(best + 1) % 4] - v[(best + 2) % 4];
+    const glm::dvec2 along_before = glm::normalize(before);
+    const glm::dvec2 along_after = glm::normalize(after);
+    const double sine = std::abs(cross(along_before, along_after));
+    if (sine < least_sine)
+        return std::nullopt;
+    const glm::dvec2 corner =
+        (v[best] + best_way * before) * pixels_a_step + (along_before + along_after) * (margin / sine);
+    const glm::dvec2 origin = glm::dvec2(at[0]) * pixels_a_step;
+    return std::array<glm::vec2, 3>{glm::vec2(origin + corner),
+                                    glm::vec2(origin + v[(best + 2) % 4] * pixels_a_step),
+                                    glm::vec2(origin + v[(best + 3) % 4] * pixels_a_step)};
 }
 
 double length_at(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
@@ -65,8 +114,8 @@ struct SilhouetteTriangles::Writer {
         put(value.y);
     }
 
-    // One triangle with the corners given, in lattice steps.
-    void put(const Thickness& t, const glm::ivec2& reference, const std::array<glm::ivec2, 3>& corners,
+    // One triangle with the corners given, in pixels.
+    void put(const Thickness& t, const glm::ivec2& reference, const std::array<glm::vec2, 3>& corners,
              const std::array<glm::vec4, 5>& colours)
     {
         const auto step = static_cast<float>(triangles.pixels_a_step_);
@@ -82,8 +131,8 @@ struct SilhouetteTriangles::Writer {
         put(t.scalar_base);
         put(t.depth_slope);
         put(t.scalar_slope);
-        for (const glm::ivec2& corner : corners)
-            put(glm::vec2(corner) * step);
+        for (const glm::vec2& corner : corners)
+            put(corner);
         put(glm::vec2(0));
         if (!triangles.from_.optics.empty()) {
             std::memcpy(next, colours.data(), sizeof colours);
@@ -103,13 +152,24 @@ struct SilhouetteTriangles::Writer {
             colours = t.interpolate(optics.at_points, optics.at_thickest);
         }
         if (cell.kind == SilhouetteClass::triangle) {
-            put(t, cell.at[0], {cell.at[1], cell.at[2], cell.at[3]}, colours);
+            put(t, cell.at[0], on_lattice({cell.at[1], cell.at[2], cell.at[3]}), colours);
             return;
         }
+        if (cell.first_half && cell.second_half)
+            if (const auto around = triangle_around(cell.at, triangles.pixels_a_step_)) {
+                put(t, cell.at[0], *around, colours);
+                return;
+            }
         if (cell.first_half)
-            put(t, cell.at[0], {cell.at[0], cell.at[1], cell.at[2]}, colours);
+            put(t, cell.at[0], on_lattice({cell.at[0], cell.at[1], cell.at[2]}), colours);
         if (cell.second_half)
-            put(t, cell.at[0], {cell.at[0], cell.at[1], cell.at[3]}, colours);
+            put(t, cell.at[0], on_lattice({cell.at[0], cell.at[1], cell.at[3]}), colours);
+    }
+
+    std::array<glm::vec2, 3> on_lattice(const std::array<glm::ivec2, 3>& corners) const
+    {
+        const auto step = static_cast<float>(triangles.pixels_a_step_);
+        return {glm::vec2(corners[0]) * step, glm::vec2(corners[1]) * step, glm::vec2(corners[2]) * step};
     }
 
     // The way between a boundary face on the lattice and where it is.
@@ -172,7 +232,7 @@ struct SilhouetteTriangles::Writer {
                 colours[2][k] = static_cast<float>(slope.y);
             }
         }
-        put(t, at[0], at, colours);
+        put(t, at[0], on_lattice(at), colours);
     }
 
     void put_slabs(CellId cell, bool entries)
