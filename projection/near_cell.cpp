@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace visorder {
 
@@ -48,8 +49,13 @@ std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dv
     NearCell cell;
     glm::dvec3 gradient(0);
     for (std::size_t i = 0; i < 4; ++i) {
-        const glm::dvec3& a = from[(i + 1) % 4];
-        glm::dvec3 normal = glm::cross(from[(i + 2) % 4] - a, from[(i + 3) % 4] - a);
+        // The face's point nearest to the eye, so that a face with a point at the eye passes exactly through it.
+        std::array<std::size_t, 3> face{(i + 1) % 4, (i + 2) % 4, (i + 3) % 4};
+        for (std::size_t k = 1; k < 3; ++k)
+            if (glm::dot(from[face[k]], from[face[k]]) < glm::dot(from[face[0]], from[face[0]]))
+                std::swap(face[0], face[k]);
+        const glm::dvec3& a = from[face[0]];
+        glm::dvec3 normal = glm::cross(from[face[1]] - a, from[face[2]] - a);
         double height = glm::dot(normal, from[i] - a);
         if (height == 0 || !std::isfinite(height))
             return std::nullopt;

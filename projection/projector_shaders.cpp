@@ -144,9 +144,7 @@ void main()
     vec4 bo1 = quad ? optics3 : in23 ? optics2 : in31 ? optics3 : optics1;
     vec4 bo2 = quad ? (at0 ? optics0 : optics1) : in23 ? optics3 : in31 ? optics1 : optics2;
 #endif
-#ifdef LINEAR
-    result = interpolated(quad, a0, a1, a2, b0, b1, b2, ao0, ao1, ao2, bo0, bo1, bo2, pixel, third);
-#elif defined(OPTICS)
+#ifdef OPTICS
     vec4 a_optics = a.x * ao0 + a.y * ao1 + a.z * ao2;
     vec4 b_optics = b.x * bo0 + b.y * bo1 + b.z * bo2;
     result = light_of(front, back, len, swapped ? b_optics : a_optics, swapped ? a_optics : b_optics);
@@ -223,6 +221,8 @@ void main()
     vec4 optics = colours[0] + colours[1] * r.x + colours[2] * r.y + colours[3] * g + colours[4] * m;
 #endif
 #ifdef LINEAR
+    // Below zero beyond a quad.
+    optics.w = max(optics.w, 0.0);
     result = vec4(optics.rgb * optics.w, optics.w);
 #else
 #ifndef OPTICS
@@ -230,6 +230,54 @@ void main()
 #endif
     result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, swapped ? -len : len,
                       optics, optics);
+#endif
+}
+)";
+
+constexpr const char* thick_vertex_text = R"(
+struct Corner {
+    vec4 place_and_front, back;
+#ifdef OPTICS
+    vec4 optics;
+#endif
+};
+layout(std430, binding = 1) readonly buffer Corners { Corner corners[]; };
+uniform float half_range;
+
+noperspective out vec2 front, back; // depth, and scalar times 1 - depth / D
+#ifdef OPTICS
+noperspective out vec4 optics;
+#endif
+
+void main()
+{
+    front = corners[gl_VertexID].place_and_front.zw;
+    back = corners[gl_VertexID].back.xy;
+#ifdef OPTICS
+    optics = corners[gl_VertexID].optics;
+#endif
+    gl_Position = vec4(corners[gl_VertexID].place_and_front.xy / half_range, 0.0, 1.0);
+}
+)";
+
+constexpr const char* thick_text = R"(
+noperspective in vec2 front, back;
+#ifdef OPTICS
+noperspective in vec4 optics;
+#else
+const vec4 optics = vec4(0.0);
+#endif
+uniform float inverse_distance;
+
+void main()
+{
+#ifdef LINEAR
+    result = vec4(optics.rgb * optics.w, optics.w);
+#else
+    float front_scale = 1.0 - front.x * inverse_distance;
+    float back_scale = 1.0 - back.x * inverse_distance;
+    float len = (back.x - front.x) / (front_scale * back_scale) * length_per_depth(gl_FragCoord.xy - centre);
+    result = light_of(front.y / front_scale, back.y / back_scale, len, optics, optics);
 #endif
 }
 )";
@@ -294,6 +342,7 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator)
     case Projector::silhouette:
         return {start + silhouette_vertex_text, fragment + silhouette_text};
     case Projector::thick:
+        return {start + thick_vertex_text, fragment + thick_text};
     case Projector::planes:
         return {start + (needs_optics(integrator) ? optics_shader() : "") + planes_vertex_text, fragment + planes_text};
     }

@@ -5,6 +5,7 @@
 #include "projection/projector_shaders.h"
 #include "projection/plane_triangles.h"
 #include "projection/silhouette_triangles.h"
+#include "projection/thick_triangles.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -66,6 +67,15 @@ GLenum framebuffer_format(int bits)
     default:
         throw InputError(fmt::format("blending in {} bits; there are 32, 16 and 8", bits));
     }
+}
+
+const RenderOptions& checked(const RenderOptions& options)
+{
+    framebuffer_format(options.blending_bits);
+    if (options.projector == Projector::planes && options.integrator == Integrator::linear)
+        throw InputError("the integrator linear interpolates from the thickest point, which the projector planes does "
+                         "not have: take silhouette or thick");
+    return options;
 }
 
 RasterLattice raster_lattice(const Context& context)
@@ -137,6 +147,8 @@ std::unique_ptr<const CellTriangles> make_triangles(Projector projector, const T
 {
     if (projector == Projector::silhouette)
         return std::make_unique<SilhouetteTriangles>(sources);
+    if (projector == Projector::thick)
+        return std::make_unique<ThickTriangles>(sources);
     return std::make_unique<PlaneTriangles>(*sources.cells);
 }
 
@@ -162,13 +174,12 @@ struct ProjectionRenderer::Stretch {
 
 ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scene, const TransferFunction& function,
                                        const RenderOptions& options)
-    : context_(&context), scene_(&checked(scene)), options_(options), lattice_(raster_lattice(context)),
+    : context_(&context), scene_(&checked(scene)), options_(checked(options)), lattice_(raster_lattice(context)),
       triangle_program_(make_program(context, "cell projection", triangle_shaders(options.projector, options.integrator))),
       near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator))),
       function_(make_textures(context, scene, options)), ring_(make_ring(context))
 {
     const Context::Current current(context);
-    framebuffer_format(options.blending_bits);
     const Mesh& mesh = scene.mesh();
     const ScalarRange range = scalar_range(mesh);
     scalars_.resize(mesh.scalars.size());
@@ -324,13 +335,19 @@ void ProjectionRenderer::set_up(const Screen& screen)
 
     const glm::mat3 rays(screen.rays());
     for (Program* program : {&triangle_program_, &near_cell_program_}) {
-        program->set("centre", glm::vec2(screen.centre()));
         program->set("half_range", static_cast<float>(lattice_.half_range));
+        // Opacities that are interpolated hold the lengths already.
+        if (program == &triangle_program_ && options_.integrator == Integrator::linear)
+            continue;
+        program->set("centre", glm::vec2(screen.centre()));
         program->set("ray_x", rays[0]);
         program->set("ray_y", rays[1]);
         program->set("ray_1", rays[2]);
     }
-    triangle_program_.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
+    if (options_.integrator != Integrator::linear)
+        triangle_program_.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
+    else if (options_.projector == Projector::silhouette)
+        triangle_program_.set("centre", glm::vec2(screen.centre()));
     if (options_.projector == Projector::planes)
         triangle_program_.set("lattice_steps", static_cast<float>(lattice_.steps));
     near_cell_program_.set("first_depth", screen.perspective() ? 0.0F : -1e30F);

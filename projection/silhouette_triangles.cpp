@@ -1,6 +1,6 @@
 #include "projection/silhouette_triangles.h"
 
-#include "scene/adjacency.h"
+#include "projection/thickness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +17,6 @@ constexpr std::size_t plain_floats = 24;
 constexpr std::size_t optics_floats = 20;
 // Added to a place, in pixels, so that its coordinates are positive and their signs can say something else.
 constexpr float place_offset = 16384;
-
-glm::vec4 combined(const std::array<glm::vec4, 4>& values, const std::array<double, 4>& shares)
-{
-    glm::vec4 sum(0);
-    for (std::size_t i = 0; i < 4; ++i)
-        sum += static_cast<float>(shares[i]) * values[i];
-    return sum;
-}
 
 // A triangle around a quad that is little larger, if there is one: the sides next to one of the quad's sides meet beyond
 // it. One triangle in place of two, and thickness is zero where the quad is not. (Of a quad, points 0 and 1 are opposite
@@ -74,33 +66,7 @@ std::optional<std::array<glm::vec2, 3>> triangle_around(const std::array<glm::iv
                                     glm::vec2(origin + v[(best + 3) % 4] * pixels_a_step)};
 }
 
-double length_at(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
-{
-    const Screen& screen = *from.screen;
-    const double inverse = screen.inverse_distance();
-    const glm::dvec2 pixel = glm::dvec2(cell.at[0]) / static_cast<double>(from.lattice.steps) + point.at;
-    return (point.back_depth - point.front_depth) /
-           ((1 - point.front_depth * inverse) * (1 - point.back_depth * inverse)) *
-           glm::length(screen.rays() * glm::dvec3(pixel, 1));
-}
-
 } // namespace
-
-CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
-{
-    CellOptics optics{};
-    for (std::size_t i = 0; i < 4; ++i)
-        optics.at_points[i] = from.optics[cell.points[i]];
-    optics.at_thickest =
-        0.5F * (combined(optics.at_points, point.front_shares) + combined(optics.at_points, point.back_shares));
-    if (from.opacity_at_thickest) {
-        for (glm::vec4& o : optics.at_points)
-            o.w = 0;
-        optics.at_thickest.w =
-            static_cast<float>(-std::expm1(-static_cast<double>(optics.at_thickest.w) * length_at(from, cell, point)));
-    }
-    return optics;
-}
 
 struct SilhouetteTriangles::Writer {
     const SilhouetteTriangles& triangles;
@@ -172,88 +138,37 @@ struct SilhouetteTriangles::Writer {
         return {glm::vec2(corners[0]) * step, glm::vec2(corners[1]) * step, glm::vec2(corners[2]) * step};
     }
 
-    // The way between a boundary face on the lattice and where it is.
-    void put_slab(const std::array<PointId, 3>& face, bool entry)
+    void put_slab(const BoundarySlab& slab)
     {
-        const ScreenPoints& points = triangles.from_.cells->points();
-        const double step = triangles.pixels_a_step_;
-        std::array<glm::ivec2, 3> at;
-        std::array<glm::dvec2, 3> exact;
-        std::array<glm::dvec2, 3> snapped;
-        std::array<double, 3> depth;
-        std::array<double, 3> scalar;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const glm::vec4& p = points.exact[face[i]];
-            at[i] = points.snapped[face[i]];
-            exact[i] = {p.x, p.y};
-            snapped[i] = glm::dvec2(at[i]) * step;
-            depth[i] = p.z;
-            scalar[i] = p.w * (1 - depth[i] * triangles.inverse_distance_);
-        }
-        const auto slope_of = [](const std::array<glm::dvec2, 3>& p, const std::array<double, 3>& value) {
-            const glm::dvec2 b = p[1] - p[0];
-            const glm::dvec2 c = p[2] - p[0];
-            const glm::dvec2 sum = (value[1] - value[0]) * glm::dvec2(c.y, -c.x) -
-                                   (value[2] - value[0]) * glm::dvec2(b.y, -b.x);
-            return sum / (b.x * c.y - b.y * c.x);
-        };
-        const glm::dvec2 exact_slope = slope_of(exact, depth);
-        std::array<double, 3> missing;
-        double most = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            missing[i] = glm::dot(exact_slope, snapped[i] - exact[i]);
-            most = std::max(most, std::abs(missing[i]));
-        }
-        // A face that hardly shows is as wide as it has been displaced: its plane means nothing at a pixel.
-        const auto [nearest, farthest] = std::minmax_element(depth.begin(), depth.end());
-        if (!(most > 0 && most < 0.5 * (*farthest - *nearest)))
-            return;
-        const glm::dvec2 missing_slope = slope_of(snapped, missing);
-        // As a thickness rise (1 - k.r), with k.r in place of the largest of three.
-        const double rise = std::copysign(std::max(std::abs(missing[0]), 1e-6 * most), missing[0]);
+        const std::array<glm::dvec2, 3> corners{glm::dvec2(slab.at[0]) * triangles.pixels_a_step_,
+                                                glm::dvec2(slab.at[1]) * triangles.pixels_a_step_,
+                                                glm::dvec2(slab.at[2]) * triangles.pixels_a_step_};
+        // As a thickness: rise (1 - k.r), with k.r in place of the largest of three.
+        constexpr double least_rise = 1e-30;
+        const double rise = std::copysign(std::max(std::abs(slab.missing[0]), least_rise), slab.missing[0]);
         Thickness t{};
         t.kind = SilhouetteClass::triangle;
-        t.k1 = t.k2 = t.k3 = glm::vec2(-missing_slope / rise);
-        t.depth_base = static_cast<float>(depth[0]);
-        t.scalar_base = static_cast<float>(scalar[0]);
-        t.depth_slope = glm::vec2(slope_of(snapped, depth));
-        t.scalar_slope = glm::vec2(slope_of(snapped, scalar));
+        t.k1 = t.k2 = t.k3 = glm::vec2(-slope_of(corners, slab.missing) / rise);
+        t.depth_base = static_cast<float>(slab.depth[0]);
+        t.scalar_base = static_cast<float>(slab.scalar[0]);
+        t.depth_slope = glm::vec2(slope_of(corners, slab.depth));
+        t.scalar_slope = glm::vec2(slope_of(corners, slab.scalar));
         t.depth_rise = static_cast<float>(rise);
-        t.scalar_rise =
-            static_cast<float>(-rise * triangles.inverse_distance_ * static_cast<double>(points.exact[face[0]].w));
-        t.swapped = entry;
+        // The scalar hardly changes from the face on the lattice to where it is.
+        t.scalar_rise = static_cast<float>(-rise * triangles.inverse_distance_ * slab.scalar[0] /
+                                           (1 - slab.depth[0] * triangles.inverse_distance_));
+        t.swapped = slab.entry;
         std::array<glm::vec4, 5> colours{};
         if (const auto optics = triangles.from_.optics; !optics.empty()) {
-            colours[0] = optics[face[0]];
+            colours[0] = optics[slab.face[0]];
             for (int k = 0; k < 4; ++k) {
                 const glm::dvec2 slope =
-                    slope_of(snapped, {optics[face[0]][k], optics[face[1]][k], optics[face[2]][k]});
+                    slope_of(corners, {optics[slab.face[0]][k], optics[slab.face[1]][k], optics[slab.face[2]][k]});
                 colours[1][k] = static_cast<float>(slope.x);
                 colours[2][k] = static_cast<float>(slope.y);
             }
         }
-        put(t, at[0], on_lattice(at), colours);
-    }
-
-    void put_slabs(CellId cell, bool entries)
-    {
-        const Scene& scene = *triangles.from_.scene;
-        const std::uint8_t interior = scene.adjacency().interior[cell];
-        const auto v = scene.mesh().cell(cell);
-        const VisibleCells& cells = *triangles.from_.cells;
-        for (int f = 0; f < 4; ++f) {
-            if ((interior >> f & 1) != 0)
-                continue;
-            const auto corners = face_vertices(CellShape::tetrahedron, f);
-            const std::array<PointId, 3> face{v[corners[0]], v[corners[1]], v[corners[2]]};
-            const glm::ivec2 a = cells.points().snapped[face[0]];
-            const glm::ivec2 b = cells.points().snapped[face[1]];
-            const glm::ivec2 c = cells.points().snapped[face[2]];
-            const std::int64_t area = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
-            const bool entry = (area > 0) != cells.turned(cell);
-            if (area != 0 && entry == entries && cells.covers_a_centre(a, b, c))
-                put_slab(face, entry);
-        }
+        put(t, slab.at[0], on_lattice(slab.at), colours);
     }
 };
 
@@ -271,18 +186,12 @@ std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, std::byte* 
                                       std::vector<CellOffLattice>& off_lattice) const
 {
     Writer writer{*this, reinterpret_cast<float*>(into)};
-    const auto& interior = from_.scene->adjacency().interior;
-    constexpr std::uint8_t all_faces = 15;
     from_.cells->visit(
         cells,
         [&](const VisibleCell& cell) {
-            // Opacity between vertices is not that of a length, so no length can be made good.
-            const bool slabs = interior[cell.cell] != all_faces && !from_.opacity_at_thickest;
-            if (slabs)
-                writer.put_slabs(cell.cell, false);
-            writer.put_cell(cell);
-            if (slabs)
-                writer.put_slabs(cell.cell, true);
+            visit_with_slabs(
+                from_, cell.cell, [&](const BoundarySlab& slab) { writer.put_slab(slab); },
+                [&] { writer.put_cell(cell); });
         },
         [&](CellId cell) { off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell}); });
     return writer.count;

@@ -1,20 +1,8 @@
 #pragma once
 
-#include "projection/thickness.h"
-
-#include <span>
+#include "projection/boundary_slab.h"
 
 namespace visorder {
-
-/// What cells' triangles are made from, beside the cells. All of it must outlive what is made.
-struct TriangleSources {
-    const Scene* scene;
-    const Screen* screen;
-    const VisibleCells* cells;
-    RasterLattice lattice;
-    std::span<const glm::vec4> optics; ///< colour and extinction at each point; only where vertices are interpolated
-    bool opacity_at_thickest = false;  ///< whether the fourth component interpolated is opacity, not extinction
-};
 
 /// The triangles of Projector::silhouette: of each half of a cell's silhouette the cell's Thickness, as the shader reads
 /// it.
@@ -38,13 +26,5 @@ private:
     double pixels_a_step_;
     double inverse_distance_;
 };
-
-/// The optics of a cell's points and of its thickest point, as the integrators linear and exponential have them: colour
-/// averaged between front and back, and averaged extinction or the opacity that comes of it.
-struct CellOptics {
-    std::array<glm::vec4, 4> at_points;
-    glm::vec4 at_thickest;
-};
-CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point);
 
 } // namespace visorder

@@ -1,5 +1,6 @@
 #include "projection/thickness.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -55,6 +56,24 @@ double mix(double a, double b, double share)
     return a + share * (b - a);
 }
 
+glm::vec4 combined(const std::array<glm::vec4, 4>& values, const std::array<double, 4>& shares)
+{
+    glm::vec4 sum(0);
+    for (std::size_t i = 0; i < 4; ++i)
+        sum += static_cast<float>(shares[i]) * values[i];
+    return sum;
+}
+
+double length_at(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
+{
+    const Screen& screen = *from.screen;
+    const double inverse = screen.inverse_distance();
+    const glm::dvec2 pixel = glm::dvec2(cell.at[0]) / static_cast<double>(from.lattice.steps) + point.at;
+    return (point.back_depth - point.front_depth) /
+           ((1 - point.front_depth * inverse) * (1 - point.back_depth * inverse)) *
+           glm::length(screen.rays() * glm::dvec3(pixel, 1));
+}
+
 } // namespace
 
 CellValues values_of(const VisibleCell& cell, const ScreenPoints& points, double inverse_distance)
@@ -91,6 +110,22 @@ ThickPoint thick_point(const VisibleCell& cell, const CellValues& values, double
         point.back_scalar += point.back_shares[i] * values.scalar[i];
     }
     return point;
+}
+
+CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
+{
+    CellOptics optics{};
+    for (std::size_t i = 0; i < 4; ++i)
+        optics.at_points[i] = from.optics[cell.points[i]];
+    optics.at_thickest =
+        0.5F * (combined(optics.at_points, point.front_shares) + combined(optics.at_points, point.back_shares));
+    if (from.opacity_at_thickest) {
+        for (glm::vec4& o : optics.at_points)
+            o.w = 0;
+        optics.at_thickest.w =
+            static_cast<float>(-std::expm1(-static_cast<double>(optics.at_thickest.w) * length_at(from, cell, point)));
+    }
+    return optics;
 }
 
 Thickness thickness_of(const VisibleCell& cell, const CellValues& values, double pixels_a_step)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "projection/boundary_slab.h"
 #include "projection/visible_cells.h"
 
 #include <array>
@@ -26,6 +27,14 @@ struct CellValues {
 CellValues values_of(const VisibleCell& cell, const ScreenPoints& points, double inverse_distance);
 
 ThickPoint thick_point(const VisibleCell& cell, const CellValues& values, double pixels_a_step);
+
+/// The optics of a cell's points and of its thickest point, as the integrators linear and exponential have them: colour
+/// averaged between front and back, and averaged extinction or the opacity that comes of it.
+struct CellOptics {
+    std::array<glm::vec4, 4> at_points;
+    glm::vec4 at_thickest;
+};
+CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point);
 
 /// Entry and exit of rays through a cell, as functions of the pixel r, relative to VisibleCell::points[0], that take a
 /// few multiplications. Let
