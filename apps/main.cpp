@@ -33,6 +33,7 @@ int main(int argc, char** argv)
     add_compare_command(app, command);
     add_sort_command(app, command);
     add_check_command(app, command);
+    add_render_command(app, command);
     add_inspect_command(app, command);
     add_sorters_command(app, command);
     try {

@@ -30,7 +30,7 @@ std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command)
     return choice;
 }
 
-View view_of(const ViewChoice& choice, const Scene& scene)
+View view_of(const ViewChoice& choice, const Scene& scene, glm::ivec2 size, double view_angle)
 {
     const glm::dvec3 middle = scene.bounds().middle();
     const glm::dvec3 half = scene.bounds().max * 0.5 - scene.bounds().min * 0.5;
@@ -38,18 +38,19 @@ View view_of(const ViewChoice& choice, const Scene& scene)
     const double radius = length > 0 && std::isfinite(length) ? length : 1;
     if (!choice.direction.empty()) {
         const glm::dvec3 direction = triple(choice.direction, "--direction");
-        View view{glm::dvec4(direction, 0), glm::dmat4(1), {512, 512}};
+        View view{glm::dvec4(direction, 0), glm::dmat4(1), size};
         validate(view);
-        view.world_to_clip = parallel(direction, middle, radius).world_to_clip;
+        view.world_to_clip = parallel(direction, middle, radius, size).world_to_clip;
         return view;
     }
     if (choice.eye.empty())
         throw InputError("no view given: use --eye X,Y,Z or --direction X,Y,Z");
     const glm::dvec3 eye = triple(choice.eye, "--eye");
-    View view{glm::dvec4(eye, 1), glm::dmat4(1), {512, 512}};
+    View view{glm::dvec4(eye, 1), glm::dmat4(1), size};
     validate(view);
     // An eye at the very middle looks down an axis.
-    view.world_to_clip = look_at(eye, eye == middle ? eye - glm::dvec3(0, 0, radius) : middle, radius).world_to_clip;
+    const glm::dvec3 target = eye == middle ? eye - glm::dvec3(0, 0, radius) : middle;
+    view.world_to_clip = look_at(eye, target, radius, view_angle, size).world_to_clip;
     return view;
 }
 

@@ -18,6 +18,6 @@ struct ViewChoice {
 std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command);
 
 /// A view of the whole scene from there. Throws InputError where neither or both were given, or no such eye can be.
-View view_of(const ViewChoice& choice, const Scene& scene);
+View view_of(const ViewChoice& choice, const Scene& scene, glm::ivec2 size = {512, 512}, double view_angle = 30);
 
 } // namespace visorder

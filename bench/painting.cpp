@@ -1,13 +1,11 @@
 #include "bench/painting.h"
 
-#include "scene/error.h"
-
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
-#include <png.h>
+#include <glm/vec3.hpp>
+#include <vector>
 
 namespace visorder {
 
@@ -46,7 +44,7 @@ std::vector<glm::dvec2> hull_of(std::vector<glm::dvec2> points)
     return hull;
 }
 
-void fill(Picture& picture, const std::vector<glm::dvec2>& hull, const glm::dvec3& colour, double opacity)
+void fill(Image& image, const std::vector<glm::dvec2>& hull, const glm::dvec3& colour, double opacity)
 {
     if (hull.size() < 3)
         return;
@@ -56,9 +54,9 @@ void fill(Picture& picture, const std::vector<glm::dvec2>& hull, const glm::dvec
         high = std::max(high, p.y);
     }
     const int first = std::max(0, static_cast<int>(std::ceil(low - 0.5)));
-    const int last = std::min(picture.size.y - 1, static_cast<int>(std::floor(high - 0.5)));
+    const int last = std::min(image.size.y - 1, static_cast<int>(std::floor(high - 0.5)));
     for (int y = first; y <= last; ++y) {
-        double left = picture.size.x, right = 0;
+        double left = image.size.x, right = 0;
         for (std::size_t i = 0; i < hull.size(); ++i) {
             const glm::dvec2& a = hull[i];
             const glm::dvec2& b = hull[(i + 1) % hull.size()];
@@ -70,20 +68,20 @@ void fill(Picture& picture, const std::vector<glm::dvec2>& hull, const glm::dvec
             right = std::max(right, x);
         }
         const int begin = std::max(0, static_cast<int>(std::ceil(left - 0.5)));
-        const int end = std::min(picture.size.x, static_cast<int>(std::floor(right - 0.5)) + 1);
+        const int end = std::min(image.size.x, static_cast<int>(std::floor(right - 0.5)) + 1);
         for (int x = begin; x < end; ++x) {
-            glm::dvec3& pixel = picture.pixels[static_cast<std::size_t>(y * picture.size.x + x)];
-            pixel = glm::mix(pixel, colour, opacity);
+            glm::vec4& pixel = image.pixels[image.index(x, y)];
+            pixel = glm::mix(pixel, glm::vec4(colour, 1), static_cast<float>(opacity));
         }
     }
 }
 
 } // namespace
 
-Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity)
+Image paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity)
 {
-    Picture picture{view.size, {}};
-    picture.pixels.assign(static_cast<std::size_t>(view.size.x * view.size.y), glm::dvec3(1));
+    Image image{view.size, {}};
+    image.pixels.assign(static_cast<std::size_t>(view.size.x * view.size.y), glm::vec4(1));
     for (CellId cell : back_to_front) {
         std::vector<glm::dvec2> corners;
         double scalar = 0;
@@ -91,56 +89,29 @@ Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const Vie
             const glm::dvec4 clip = view.world_to_clip * glm::dvec4(mesh.points[p], 1);
             if (clip.w <= 0)
                 break;
-            corners.emplace_back((clip.x / clip.w + 1) / 2 * view.size.x, (1 - clip.y / clip.w) / 2 * view.size.y);
+            corners.emplace_back((clip.x / clip.w + 1) / 2 * view.size.x, (clip.y / clip.w + 1) / 2 * view.size.y);
             scalar += mesh.scalars.empty() ? 0.5 : static_cast<double>(mesh.scalars[p]);
         }
         if (corners.size() == mesh.cell(cell).size())
-            fill(picture, hull_of(corners), colour_of(scalar / static_cast<double>(corners.size())), opacity);
+            fill(image, hull_of(corners), colour_of(scalar / static_cast<double>(corners.size())), opacity);
     }
-    return picture;
+    return image;
 }
 
-Picture difference(const Picture& a, const Picture& b, double amplification)
+Image side_by_side(std::span<const Image> pictures, int gap)
 {
-    Picture result{a.size, std::vector<glm::dvec3>(a.pixels.size())};
-    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-        const glm::dvec3 d = glm::abs(a.pixels[i] - b.pixels[i]) * amplification;
-        const double most = std::min(1.0, std::max({d.x, d.y, d.z}));
-        result.pixels[i] = glm::mix(glm::dvec3(1), glm::dvec3(0.7, 0, 0), most);
-    }
-    return result;
-}
-
-Picture side_by_side(std::span<const Picture> pictures, int gap)
-{
-    Picture result{{-gap, pictures.front().size.y}, {}};
-    for (const Picture& picture : pictures)
-        result.size.x += picture.size.x + gap;
-    result.pixels.assign(static_cast<std::size_t>(result.size.x * result.size.y), glm::dvec3(1));
+    Image result{{-gap, pictures.front().size.y}, {}};
+    for (const Image& image : pictures)
+        result.size.x += image.size.x + gap;
+    result.pixels.assign(static_cast<std::size_t>(result.size.x * result.size.y), glm::vec4(1));
     int left = 0;
-    for (const Picture& picture : pictures) {
-        for (int y = 0; y < picture.size.y; ++y)
-            std::copy_n(picture.pixels.begin() + y * picture.size.x, picture.size.x,
+    for (const Image& image : pictures) {
+        for (int y = 0; y < image.size.y; ++y)
+            std::copy_n(image.pixels.begin() + y * image.size.x, image.size.x,
                         result.pixels.begin() + y * result.size.x + left);
-        left += picture.size.x + gap;
+        left += image.size.x + gap;
     }
     return result;
-}
-
-void write_png(const Picture& picture, const std::filesystem::path& file)
-{
-    std::vector<png_byte> bytes;
-    bytes.reserve(picture.pixels.size() * 3);
-    for (const glm::dvec3& pixel : picture.pixels)
-        for (int k = 0; k < 3; ++k)
-            bytes.push_back(static_cast<png_byte>(std::lround(std::clamp(pixel[k], 0.0, 1.0) * 255)));
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(picture.size.x);
-    image.height = static_cast<png_uint_32>(picture.size.y);
-    image.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&image, file.c_str(), 0, bytes.data(), 0, nullptr) == 0)
-        throw InputError(fmt::format("{}: cannot be written: {}", file.string(), image.message));
 }
 
 } // namespace visorder

@@ -1,7 +1,9 @@
 // Makes the pictures of the README: visorder_pictures FOLDER.
 
 #include "bench/generated_scene.h"
+#include "bench/image_file.h"
 #include "bench/painting.h"
+#include "checking/image_errors.h"
 #include "checking/order_checker.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
@@ -26,9 +28,10 @@ void right_against_centroid(const char* specification, const View& view, double 
     if (const CheckResult result = OrderChecker(scene).check(view.eye, right); result.violations > 0)
         throw InputError(
             fmt::format("{}: {} relations of the right order are violated", specification, result.violations));
-    const Picture painted = paint(mesh, right.back_to_front, view, opacity);
-    const Picture wrong = paint(mesh, by_centres.back_to_front, view, opacity);
-    write_png(side_by_side(std::array{painted, wrong, difference(painted, wrong, 4)}, 12), file);
+    const Image painted = paint(mesh, right.back_to_front, view, opacity);
+    const Image wrong = paint(mesh, by_centres.back_to_front, view, opacity);
+    write_png(side_by_side(std::array{painted, wrong, difference_image(painted, wrong, 4)}, 12), file,
+              {.to_srgb = false});
 }
 
 } // namespace

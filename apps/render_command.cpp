@@ -1,0 +1,184 @@
+#include "apps/commands.h"
+#include "apps/scene_source.h"
+#include "apps/sorter_options.h"
+#include "apps/view_choice.h"
+#include "bench/image_file.h"
+#include "graphics/context.h"
+#include "projection/renderer.h"
+#include "projection/transfer_function_file.h"
+#include "scene/error.h"
+#include "sorting/registry.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <string>
+
+namespace visorder {
+
+namespace {
+
+struct Arguments {
+    std::shared_ptr<SceneSource> source;
+    std::shared_ptr<ViewChoice> view;
+    std::string sorter = "auto";
+    SorterOptions sorter_options;
+    std::string projector = name(RenderOptions{}.projector);
+    std::string integrator = name(RenderOptions{}.integrator);
+    std::string transfer = "cool-warm";
+    std::string map;
+    double unit_length = 0;
+    std::vector<double> camera;
+    double view_angle = 30;
+    std::vector<int> size{512};
+    int blending_bits = RenderOptions{}.blending_bits;
+    std::size_t table_scalars = 0;
+    std::size_t table_lengths = TableOptions{}.lengths;
+    bool even_lengths = false;
+    std::string platform = name(GlPlatform::automatic);
+    std::vector<float> background{1, 1, 1};
+    std::string output;
+};
+
+// The ending says which kind of file.
+bool is_exr(const std::filesystem::path& file)
+{
+    if (file.extension() == ".exr")
+        return true;
+    if (file.extension() != ".png")
+        throw InputError(fmt::format("{}: a picture's name ends in .png or .exr", file.string()));
+    return false;
+}
+
+glm::ivec2 image_size(const std::vector<int>& size)
+{
+    return size.size() == 1 ? glm::ivec2(size[0]) : glm::ivec2(size[0], size[1]);
+}
+
+View chosen_view(const Arguments& arguments, const Scene& scene)
+{
+    const glm::ivec2 size = image_size(arguments.size);
+    if (arguments.camera.empty())
+        return view_of(*arguments.view, scene, size, arguments.view_angle);
+    const std::vector<double>& c = arguments.camera;
+    Camera camera;
+    camera.position = {c[0], c[1], c[2]};
+    camera.focal_point = {c[3], c[4], c[5]};
+    camera.up = {c[6], c[7], c[8]};
+    camera.view_angle = arguments.view_angle;
+    // Near and far plane clip nothing here, but must be somewhere.
+    const double distance = glm::length(camera.focal_point - camera.position);
+    camera.near = 1e-3 * distance;
+    camera.far = 1e3 * distance;
+    return view_of(camera, size);
+}
+
+TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
+{
+    const auto names = transfer_function_names();
+    const double diameter = glm::length(scene.bounds().max - scene.bounds().min);
+    double unit_length = arguments.unit_length;
+    if (unit_length == 0)
+        unit_length = diameter > 0 ? diameter / 10 : 1;
+    if (std::find(names.begin(), names.end(), arguments.transfer) == names.end()) {
+        if (!std::filesystem::exists(arguments.transfer))
+            throw InputError(
+                fmt::format("{}: neither a file nor a transfer function; there are: {}", arguments.transfer,
+                            fmt::join(names, ", ")));
+        return read_transfer_function(arguments.transfer, {unit_length, arguments.map});
+    }
+    const auto& scalars = scene.mesh().scalars;
+    if (scalars.empty())
+        throw InputError("the mesh has no scalars to draw");
+    const auto [low, high] = std::minmax_element(scalars.begin(), scalars.end());
+    return named_transfer_function(arguments.transfer, *low, *high, unit_length);
+}
+
+int run(const Arguments& arguments)
+{
+    const bool exr = is_exr(arguments.output);
+    RenderOptions options;
+    options.projector = projector_named(arguments.projector);
+    options.integrator = integrator_named(arguments.integrator);
+    options.blending_bits = arguments.blending_bits;
+    options.tables = {arguments.table_scalars, arguments.table_lengths, !arguments.even_lengths};
+    const GlPlatform platform = gl_platform(arguments.platform);
+
+    SourcedMesh sourced = load(*arguments.source);
+    const Scene scene(std::move(sourced.mesh));
+    const View view = chosen_view(arguments, scene);
+    const TransferFunction function = chosen_function(arguments, scene);
+    const Context context(platform);
+    ProjectionRenderer renderer(context, scene, function, options);
+    const auto sorter = make_sorter(arguments.sorter, scene, arguments.sorter_options);
+    Order order;
+    sorter->sort(view, order);
+    const Image image = renderer.draw(view, order);
+    if (exr)
+        write_exr(image, arguments.output);
+    else
+        write_png(image, arguments.output,
+                  {{arguments.background[0], arguments.background[1], arguments.background[2]}, true});
+    const RenderStatistics& taken = renderer.statistics();
+    fmt::print("{}: {} x {}, {} cells as {} triangles in {:.3f} s by {} and {} on {}; sorted by {} ({})\n",
+               arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
+               taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
+               context.renderer(), arguments.sorter, name(sorter->guarantee()));
+    return exit_success;
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app, Command& chosen)
+{
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("render", "Draw a mesh of tetrahedra as a volume, in a sorter's order");
+    arguments->source = add_scene_source(*command);
+    arguments->view = add_view_choice(*command);
+    command
+        ->add_option("--camera", arguments->camera,
+                     "Position, focal point and up vector of a perspective camera, nine numbers with commas between")
+        ->delimiter(',')
+        ->expected(9)
+        ->excludes("--eye")
+        ->excludes("--direction");
+    command->add_option("--view-angle", arguments->view_angle, "Vertical, in degrees, of a perspective view")
+        ->capture_default_str();
+    command->add_option("--size", arguments->size, "Pixels: a side of a square, or WIDTH,HEIGHT")
+        ->delimiter(',')
+        ->expected(1, 2);
+    command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
+        ->capture_default_str();
+    add_sorter_options(*command, arguments->sorter_options);
+    command->add_option("--projector", arguments->projector, "How cells become triangles")->capture_default_str();
+    command
+        ->add_option("--integrator", arguments->integrator,
+                     "linear, exponential, preintegrated-2d, preintegrated-3d or exact")
+        ->capture_default_str();
+    command
+        ->add_option("--transfer", arguments->transfer,
+                     fmt::format("Transfer function: a JSON file, visorder's or ParaView's, or one of {}",
+                                 fmt::join(transfer_function_names(), ", ")))
+        ->capture_default_str();
+    command->add_option("--map", arguments->map, "The colour map to take from a ParaView file of several");
+    command->add_option("--unit-length", arguments->unit_length,
+                        "The distance over which opacities hold (default: a tenth of the scene's diameter)");
+    command->add_option("--blending", arguments->blending_bits, "Bits of a channel: 32 or 16 (floats), or 8")
+        ->capture_default_str();
+    command->add_option("--table-scalars", arguments->table_scalars,
+                        "Entries of a table along each scalar (default: 512 in 2D, 128 in 3D)");
+    command->add_option("--table-lengths", arguments->table_lengths, "Entries of a 3D table along the length")
+        ->capture_default_str();
+    command->add_flag("--even-lengths", arguments->even_lengths,
+                      "Space the entries along the length evenly, not as 1 - 2^-length");
+    command->add_option("--gl", arguments->platform, "OpenGL by auto, egl or osmesa")->capture_default_str();
+    command->add_option("--background", arguments->background, "Of a PNG, three linear numbers in [0, 1]")
+        ->delimiter(',')
+        ->expected(3);
+    command->add_option("-o,--output", arguments->output, "Where to: .png, or .exr for the floats")->required();
+    command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+} // namespace visorder

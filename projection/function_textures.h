@@ -1,0 +1,50 @@
+#pragma once
+
+#include "graphics/program.h"
+#include "projection/optical_pieces.h"
+#include "projection/projector.h"
+
+#include <cstddef>
+
+namespace visorder {
+
+/// The tables of the integrators that have any.
+struct TableOptions {
+    std::size_t scalars = 0; ///< entries along each scalar; 0: 512 in two dimensions, 128 in three
+    std::size_t lengths = 64; ///< entries along the length
+    bool exponential_lengths = true; ///< finer for short ways; else even (see LengthAxis)
+};
+
+/// How long ways through the cells of a scene are.
+struct WayLengths {
+    double mean;    ///< along random lines
+    double longest; ///< or more
+};
+
+/// What an integrator's shader reads of a transfer function. Its context must be current where it is made and used.
+class FunctionTextures {
+public:
+    /// Throws InputError for tables of fewer than 2 entries a side, or more than the renderer can hold.
+    FunctionTextures(const Context& context, Integrator integrator, const TableOptions& options,
+                     const WayLengths& lengths);
+
+    /// Computes what the integrator needs.
+    void set(const OpticalPieces& pieces);
+
+    /// Tells a program where it all is. `pieces`: whether the program reads the pieces, `lights` whether the table.
+    void introduce(Program& program, bool pieces, bool table) const;
+
+    void bind() const;
+
+private:
+    const Context* context_;
+    Integrator integrator_;
+    TableOptions options_;
+    WayLengths lengths_;
+    double length_scale_ = 1;
+    GlObject pieces_buffer_, pieces_;
+    GlObject first_piece_buffer_, first_piece_;
+    GlObject table_;
+};
+
+} // namespace visorder

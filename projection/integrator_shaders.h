@@ -1,0 +1,24 @@
+#pragma once
+
+#include "projection/projector.h"
+
+#include <string>
+
+namespace visorder {
+
+/// The part of a fragment shader that stands for an integrator. It defines
+///
+///     vec4 light_of(float front, float back, float len, vec4 front_optics, vec4 back_optics)
+///
+/// the light, premultiplied, and opacity of a ray's way through a cell: of length `len`, along which the scalar (0 to 1
+/// over the scene) runs from `front` to `back`. A negative length, where rounding to pixels has turned a cell, undoes
+/// what its neighbours do too much. Optics are colour and, in w, extinction; only where `needs_optics`.
+std::string integrator_shader(Integrator integrator);
+
+/// Whether an integrator interpolates colours and extinctions of vertices, so that projectors have to.
+bool needs_optics(Integrator integrator);
+
+/// Defines `vec4 optics_at(float scalar)`, for any stage.
+std::string optics_shader();
+
+} // namespace visorder

@@ -1,0 +1,225 @@
+#include "projection/projector_shaders.h"
+
+#include "projection/integrator_shaders.h"
+
+namespace visorder {
+
+namespace {
+
+std::string header(Integrator integrator)
+{
+    std::string text = "#version 450 core\n";
+    if (needs_optics(integrator))
+        text += "#define OPTICS\n";
+    if (integrator == Integrator::linear)
+        text += "#define LINEAR\n";
+    return text;
+}
+
+constexpr const char* record_text = R"(
+layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 1) readonly buffer Records { uvec4 records[]; };
+uniform float lattice_steps;
+uniform float half_range;
+
+flat out vec4 point0, point1, point2, point3;
+flat out uint kind;
+#ifdef OPTICS
+flat out vec4 optics0, optics1, optics2, optics3;
+#endif
+
+void main()
+{
+    uvec4 record = records[gl_VertexID / 3];
+    int corner = gl_VertexID % 3;
+    kind = record.x >> 30;
+    point0 = points[record.x & 0x3fffffffu];
+    point1 = points[record.y];
+    point2 = points[record.z];
+    point3 = points[record.w];
+    vec2 first = kind < 2u ? point3.xy : point0.xy;
+    vec2 third = kind == 3u ? point3.xy : point2.xy;
+    vec2 place = corner == 0 ? first : corner == 1 ? point1.xy : third;
+    // Dividing by powers of two is exact, and the viewport multiplies again.
+    gl_Position = vec4(roundEven(place * lattice_steps) / (lattice_steps * half_range), 0.0, 1.0);
+#ifdef OPTICS
+    optics0 = optics_at(point0.w);
+    optics1 = optics_at(point1.w);
+    optics2 = optics_at(point2.w);
+    optics3 = optics_at(point3.w);
+#endif
+}
+)";
+
+constexpr const char* ray_text = R"(
+layout(location = 0) out vec4 result;
+uniform vec2 centre;                 // of the image, pixels
+uniform vec3 ray_x, ray_y, ray_1;    // see Screen::rays
+
+float length_per_depth(vec2 pixel)
+{
+    return length(pixel.x * ray_x + pixel.y * ray_y + ray_1);
+}
+)";
+
+// A face's depth and scalar at a pixel depend on its three points alone, so that the two cells at a face agree about
+// them. Which faces a ray passes through is found out for the points where the rasteriser has them, so that the cells
+// that cover a pixel make a chain from face to face; and then the faces are taken where they are. What rounding to
+// the lattice has moved across a pixel's centre keeps within the face.
+constexpr const char* planes_text = R"(
+flat in vec4 point0, point1, point2, point3;
+flat in uint kind;
+#ifdef OPTICS
+flat in vec4 optics0, optics1, optics2, optics3;
+#endif
+uniform float lattice_steps;
+uniform float inverse_distance;
+
+float area(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+vec2 snapped(vec4 point) { return roundEven(point.xy * lattice_steps) / lattice_steps; }
+
+vec3 within(vec2 a, vec2 b, vec2 c, vec2 pixel)
+{
+    vec2 ab = b - a, ac = c - a, ap = pixel - a;
+    float whole = area(ab, ac);
+    // Without area on the screen, the nearest edge decides.
+    whole = whole == 0.0 ? 1e-30 : whole;
+    float second = area(ap, ac) / whole;
+    float third = area(ab, ap) / whole;
+    vec3 shares = max(vec3(1.0 - second - third, second, third), 0.0);
+    return shares / (shares.x + shares.y + shares.z);
+}
+
+void main()
+{
+    vec2 pixel = gl_FragCoord.xy - centre;
+    bool quad = kind >= 2u;
+    vec2 s0 = snapped(point0), s1 = snapped(point1), s2 = snapped(point2), s3 = snapped(point3);
+
+    // Of a triangle: which of the three faces around the inner point.
+    vec2 from0 = pixel - s0;
+    float turn = sign(area(s2 - s1, s3 - s1));
+    float by1 = turn * area(s1 - s0, from0);
+    float by2 = turn * area(s2 - s0, from0);
+    float by3 = turn * area(s3 - s0, from0);
+    bool in23 = by2 >= 0.0 && by3 < 0.0;
+    bool in31 = !in23 && by3 >= 0.0 && by1 < 0.0;
+    // Of a quad: the face before is that of the nearer edge and the third point drawn, the face behind that of the
+    // farther edge and an end of the nearer.
+    bool third = kind == 2u;
+    bool at0 = area(s3 - s2, pixel - s2) * area(s3 - s2, s0 - s2) >= 0.0;
+
+    vec4 a0 = quad ? point0 : point1;
+    vec4 a1 = quad ? point1 : point2;
+    vec4 a2 = quad && third ? point2 : point3;
+    vec4 b0 = quad ? point2 : point0;
+    vec4 b1 = quad ? point3 : in23 ? point2 : in31 ? point3 : point1;
+    vec4 b2 = quad ? (at0 ? point0 : point1) : in23 ? point3 : in31 ? point1 : point2;
+    vec3 a = within(a0.xy, a1.xy, a2.xy, pixel);
+    vec3 b = within(b0.xy, b1.xy, b2.xy, pixel);
+
+    // Scalars are linear in space: on the screen, they are when multiplied by 1 - depth * inverse_distance.
+    vec3 a_depths = vec3(a0.z, a1.z, a2.z);
+    vec3 b_depths = vec3(b0.z, b1.z, b2.z);
+    float a_depth = dot(a, a_depths);
+    float b_depth = dot(b, b_depths);
+    float a_scale = 1.0 / (1.0 - a_depth * inverse_distance);
+    float b_scale = 1.0 / (1.0 - b_depth * inverse_distance);
+    a *= (1.0 - a_depths * inverse_distance) * a_scale;
+    b *= (1.0 - b_depths * inverse_distance) * b_scale;
+    float a_scalar = dot(a, vec3(a0.w, a1.w, a2.w));
+    float b_scalar = dot(b, vec3(b0.w, b1.w, b2.w));
+    float len = (b_depth - a_depth) * a_scale * b_scale * length_per_depth(pixel);
+
+    bool swapped = kind == 1u;
+    len = swapped ? -len : len;
+    float front = swapped ? b_scalar : a_scalar;
+    float back = swapped ? a_scalar : b_scalar;
+#ifdef OPTICS
+    vec4 ao0 = quad ? optics0 : optics1;
+    vec4 ao1 = quad ? optics1 : optics2;
+    vec4 ao2 = quad && third ? optics2 : optics3;
+    vec4 bo0 = quad ? optics2 : optics0;
+    vec4 bo1 = quad ? optics3 : in23 ? optics2 : in31 ? optics3 : optics1;
+    vec4 bo2 = quad ? (at0 ? optics0 : optics1) : in23 ? optics3 : in31 ? optics1 : optics2;
+#endif
+#ifdef LINEAR
+    result = interpolated(quad, a0, a1, a2, b0, b1, b2, ao0, ao1, ao2, bo0, bo1, bo2, pixel, third);
+#elif defined(OPTICS)
+    vec4 a_optics = a.x * ao0 + a.y * ao1 + a.z * ao2;
+    vec4 b_optics = b.x * bo0 + b.y * bo1 + b.z * bo2;
+    result = light_of(front, back, len, swapped ? b_optics : a_optics, swapped ? a_optics : b_optics);
+#else
+    result = light_of(front, back, len, vec4(0.0), vec4(0.0));
+#endif
+}
+)";
+
+constexpr const char* near_cell_vertex_text = R"(
+uniform vec2 low, high; // pixels from the image's centre
+uniform float half_range;
+
+void main()
+{
+    vec2 place = vec2((gl_VertexID & 1) == 0 ? low.x : high.x, (gl_VertexID & 2) == 0 ? low.y : high.y);
+    gl_Position = vec4(place / half_range, 0.0, 1.0);
+}
+)";
+
+constexpr const char* near_cell_text = R"(
+uniform vec3 offsets[4], slopes[4];
+uniform vec3 scalar_offset, scalar_slope;
+uniform vec2 scalar_range;
+uniform float first_depth; // where rays begin
+
+void main()
+{
+    vec2 pixel = gl_FragCoord.xy - centre;
+    vec3 place = vec3(pixel, 1.0);
+    float first = first_depth;
+    float last = 1e30;
+    for (int i = 0; i < 4; ++i) {
+        float offset = dot(offsets[i], place);
+        float slope = dot(slopes[i], place);
+        float depth = -offset / slope;
+        if (slope < 0.0)
+            first = max(first, depth);
+        else if (slope > 0.0)
+            last = min(last, depth);
+        else if (offset > 0.0)
+            last = first;
+    }
+    if (!(last > first))
+        discard;
+    float offset = dot(scalar_offset, place);
+    float slope = dot(scalar_slope, place);
+    float front = clamp(offset + slope * first, scalar_range.x, scalar_range.y);
+    float back = clamp(offset + slope * last, scalar_range.x, scalar_range.y);
+    float len = (last - first) * length_per_depth(pixel);
+#ifdef OPTICS
+    // Where a ray begins inside the cell there is no vertex whose colour could be taken.
+    result = light_of(front, back, len, optics_at(front), optics_at(back));
+#else
+    result = light_of(front, back, len, vec4(0.0), vec4(0.0));
+#endif
+}
+)";
+
+} // namespace
+
+ShaderPair planes_shaders(Integrator integrator)
+{
+    const std::string optics = needs_optics(integrator) ? optics_shader() : "";
+    return {header(integrator) + optics + record_text,
+            header(integrator) + ray_text + integrator_shader(integrator) + planes_text};
+}
+
+ShaderPair near_cell_shaders(Integrator integrator)
+{
+    const std::string optics = needs_optics(integrator) ? optics_shader() : "";
+    return {header(integrator) + near_cell_vertex_text,
+            header(integrator) + ray_text + optics + integrator_shader(integrator) + near_cell_text};
+}
+
+} // namespace visorder

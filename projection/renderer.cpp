@@ -1,0 +1,361 @@
+#include "projection/renderer.h"
+
+#include "projection/integrator_shaders.h"
+#include "projection/near_cell.h"
+#include "projection/projector_shaders.h"
+#include "projection/triangle_records.h"
+#include "scene/error.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+#include <oneapi/tbb/task_group.h>
+
+namespace visorder {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr std::size_t stretch_cells = 32768;
+constexpr std::size_t block_cells = 1024;
+constexpr std::size_t ring_segments = 4;
+constexpr std::size_t most_triangle_bytes = 32; // two a cell
+
+constexpr GLuint points_binding = 0;
+constexpr GLuint triangles_binding = 1;
+
+const Scene& checked(const Scene& scene)
+{
+    if (!scene.is_tetrahedral())
+        throw InputError("the renderer takes tetrahedra; subdivide the mesh first");
+    const Mesh& mesh = scene.mesh();
+    if (mesh.scalars.empty())
+        throw InputError("the mesh has no scalars to draw");
+    for (std::size_t i = 0; i < mesh.scalars.size(); ++i)
+        if (!std::isfinite(mesh.scalars[i]))
+            throw InputError(fmt::format("point {}: scalar {} is not finite", scene.caller_points()[i],
+                                         static_cast<double>(mesh.scalars[i])));
+    if (mesh.points.size() > std::size_t{1} << record_kinds::shift)
+        throw InputError(fmt::format("{} points; the renderer takes 2^30", mesh.points.size()));
+    return scene;
+}
+
+GLenum framebuffer_format(int bits)
+{
+    switch (bits) {
+    case 32:
+        return GL_RGBA32F;
+    case 16:
+        return GL_RGBA16F;
+    case 8:
+        return GL_RGBA8;
+    default:
+        throw InputError(fmt::format("blending in {} bits; there are 32, 16 and 8", bits));
+    }
+}
+
+RasterLattice raster_lattice(const Context& context)
+{
+    // Eight bits are enough, and few renderers have more; the range keeps to what is exact in their fixed numbers.
+    constexpr int most_bits = 8;
+    constexpr unsigned widest = 16384;
+    const Context::Current current(context);
+    GLint bits = 0;
+    context.gl().GetIntegerv(GL_SUBPIXEL_BITS, &bits);
+    const unsigned width = std::min(static_cast<unsigned>(context.largest_size()), widest);
+    return {1 << std::clamp(bits, 1, most_bits), static_cast<int>(std::bit_floor(width) / 2)};
+}
+
+Program make_program(const Context& context, const char* title, const ShaderPair& shaders)
+{
+    const Context::Current current(context);
+    return {context, title, {{GL_VERTEX_SHADER, shaders.vertex}, {GL_FRAGMENT_SHADER, shaders.fragment}}};
+}
+
+struct ScalarRange {
+    double lowest;
+    double range;
+};
+
+ScalarRange scalar_range(const Mesh& mesh)
+{
+    const auto [low, high] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
+    const double range = static_cast<double>(*high) - static_cast<double>(*low);
+    return {*low, range > 0 ? range : 1};
+}
+
+// Random lines cross a convex body along four times its volume over its surface in the mean (Cauchy).
+WayLengths way_lengths(const Mesh& mesh)
+{
+    struct Sums {
+        double volume = 0, surface = 0, longest = 0;
+    };
+    using Range = oneapi::tbb::blocked_range<std::size_t>;
+    const auto add = [&](const Range& range, Sums sums) {
+        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+            const auto v = mesh.cell(static_cast<CellId>(cell));
+            const std::array<glm::dvec3, 4> p{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]],
+                                              mesh.points[v[3]]};
+            sums.volume += std::abs(glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0])) / 6;
+            for (std::size_t i = 0; i < 4; ++i) {
+                sums.surface += glm::length(glm::cross(p[(i + 1) % 4] - p[i], p[(i + 2) % 4] - p[i])) / 2;
+                for (std::size_t k = 0; k < i; ++k)
+                    sums.longest = std::max(sums.longest, glm::length(p[i] - p[k]));
+            }
+        }
+        return sums;
+    };
+    const Sums sums = oneapi::tbb::parallel_deterministic_reduce(
+        Range(0, mesh.cell_count(), 65536), Sums{}, add, [](const Sums& a, const Sums& b) {
+            return Sums{a.volume + b.volume, a.surface + b.surface, std::max(a.longest, b.longest)};
+        });
+    const double longest = sums.longest > 0 ? sums.longest : 1;
+    return {sums.volume > 0 ? 4 * sums.volume / sums.surface : longest, longest};
+}
+
+FunctionTextures make_textures(const Context& context, const Scene& scene, const RenderOptions& options)
+{
+    const Context::Current current(context);
+    return {context, options.integrator, options.tables, way_lengths(scene.mesh())};
+}
+
+} // namespace
+
+/// What one part of the order becomes. Blocks are made by threads of their own, each into its place.
+struct ProjectionRenderer::Stretch {
+    struct Block {
+        std::size_t triangles = 0;
+        std::vector<CellOffLattice> off_lattice;
+    };
+    std::vector<std::byte> triangles; // block by block, each with room for all it can have
+    std::vector<Block> blocks;
+    std::vector<CellId> cells; // inner numbering
+    double seconds = 0;
+};
+
+ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scene, const TransferFunction& function,
+                                       const RenderOptions& options)
+    : context_(&context), scene_(&checked(scene)), options_(options), lattice_(raster_lattice(context)),
+      triangle_program_(make_program(context, "cell projection", planes_shaders(options.integrator))),
+      near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator))),
+      function_(make_textures(context, scene, options)), ring_(context, stretch_cells * most_triangle_bytes, ring_segments)
+{
+    const Context::Current current(context);
+    framebuffer_format(options.blending_bits);
+    const Mesh& mesh = scene.mesh();
+    const ScalarRange range = scalar_range(mesh);
+    scalars_.resize(mesh.scalars.size());
+    std::transform(mesh.scalars.begin(), mesh.scalars.end(), scalars_.begin(),
+                   [&](float s) { return static_cast<float>((static_cast<double>(s) - range.lowest) / range.range); });
+
+    const Orientations& orientations = scene.orientations();
+    turned_.resize(scene.cell_count());
+    std::transform(orientations.sign.begin(), orientations.sign.end(), turned_.begin(),
+                   [](std::int8_t sign) { return static_cast<std::uint8_t>(sign < 0); });
+    for (const CellId cell : orientations.turned_flat)
+        turned_[cell] = 1;
+
+    inner_cells_.resize(scene.cell_count());
+    for (CellId inner = 0; inner < scene.cell_count(); ++inner)
+        inner_cells_[scene.caller_cells()[inner]] = inner;
+
+    no_attributes_ = GlObject(context, GlKind::vertex_array);
+    for (int i = 0; i < 2; ++i)
+        stretches_.push_back(std::make_unique<Stretch>());
+    set_transfer_function(function);
+}
+
+ProjectionRenderer::~ProjectionRenderer() = default;
+
+void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
+{
+    const Context::Current current(*context_);
+    const ScalarRange range = scalar_range(scene_->mesh());
+    function_.set(optical_pieces(function, range.lowest, range.range));
+}
+
+void ProjectionRenderer::prepare(const Order& order, std::size_t first, const CellTriangles& triangles,
+                                 Stretch& stretch) const
+{
+    const auto start = Clock::now();
+    const std::size_t cells = std::min(stretch_cells, order.back_to_front.size() - first);
+    const std::size_t blocks = (cells + block_cells - 1) / block_cells;
+    const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangles.triangle_bytes();
+    stretch.cells.resize(cells);
+    stretch.blocks.resize(blocks);
+    stretch.triangles.resize(blocks * block_bytes);
+    oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+        Stretch::Block& block = stretch.blocks[b];
+        const std::size_t begin = b * block_cells;
+        const std::size_t count = std::min(block_cells, cells - begin);
+        for (std::size_t i = begin; i < begin + count; ++i) {
+            const CellId cell = order.back_to_front[first + i];
+            if (cell >= inner_cells_.size())
+                throw InputError(fmt::format("the order lists cell {}, of {}", cell, inner_cells_.size()));
+            stretch.cells[i] = inner_cells_[cell];
+        }
+        block.off_lattice.clear();
+        block.triangles = triangles.make(std::span(stretch.cells).subspan(begin, count),
+                                         stretch.triangles.data() + b * block_bytes, block.off_lattice);
+    });
+    stretch.seconds = seconds_since(start);
+}
+
+void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles)
+{
+    const GlFunctions& gl = context_->gl();
+    const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangles.triangle_bytes();
+    std::byte* into = ring_.next();
+    std::size_t written = 0;
+    std::size_t drawn = 0;
+    std::vector<CellOffLattice> off_lattice;
+    for (std::size_t b = 0; b < stretch.blocks.size(); ++b) {
+        const Stretch::Block& block = stretch.blocks[b];
+        for (const CellOffLattice& cell : block.off_lattice)
+            off_lattice.push_back({cell.triangles_before + static_cast<std::uint32_t>(written), cell.cell});
+        std::copy_n(stretch.triangles.data() + b * block_bytes, block.triangles * triangles.triangle_bytes(),
+                    into + written * triangles.triangle_bytes());
+        written += block.triangles;
+    }
+    ring_.bind(triangles_binding);
+    const auto draw_up_to = [&](std::size_t end) {
+        if (end == drawn)
+            return;
+        triangle_program_.use();
+        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
+        drawn = end;
+    };
+    for (const CellOffLattice& cell : off_lattice) {
+        draw_up_to(cell.triangles_before);
+        draw_near_cell(screen, cell.cell);
+    }
+    draw_up_to(written);
+    ring_.issued();
+    statistics_.triangles += written;
+    statistics_.prepare_s += stretch.seconds;
+}
+
+void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
+{
+    const auto v = scene_->mesh().cell(cell);
+    const auto& points = scene_->mesh().points;
+    const std::optional<NearCell> near = near_cell(screen, {points[v[0]], points[v[1]], points[v[2]], points[v[3]]},
+                                                   {scalars_[v[0]], scalars_[v[1]], scalars_[v[2]], scalars_[v[3]]});
+    if (!near)
+        return;
+    constexpr std::array<const char*, 4> offsets{"offsets[0]", "offsets[1]", "offsets[2]", "offsets[3]"};
+    constexpr std::array<const char*, 4> slopes{"slopes[0]", "slopes[1]", "slopes[2]", "slopes[3]"};
+    for (std::size_t i = 0; i < 4; ++i) {
+        near_cell_program_.set(offsets[i], near->offsets[i]);
+        near_cell_program_.set(slopes[i], near->slopes[i]);
+    }
+    near_cell_program_.set("scalar_offset", near->scalar_offset);
+    near_cell_program_.set("scalar_slope", near->scalar_slope);
+    near_cell_program_.set("scalar_range", near->scalar_range);
+    near_cell_program_.set("low", glm::vec2(near->low));
+    near_cell_program_.set("high", glm::vec2(near->high));
+    near_cell_program_.use();
+    context_->gl().DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    ++statistics_.near_cells;
+}
+
+void ProjectionRenderer::set_up(const Screen& screen)
+{
+    const GlFunctions& gl = context_->gl();
+    const GLenum format = framebuffer_format(options_.blending_bits);
+    if (!framebuffer_ || framebuffer_->size() != screen.size())
+        framebuffer_.emplace(*context_, screen.size(), std::span(&format, 1), 0);
+    framebuffer_->bind();
+    // Beyond the image, so that the renderer clips no triangle: it would move its corners.
+    gl.Viewport(screen.centre().x - lattice_.half_range, screen.centre().y - lattice_.half_range,
+                2 * lattice_.half_range, 2 * lattice_.half_range);
+    constexpr std::array<float, 4> clear{};
+    gl.ClearBufferfv(GL_COLOR, 0, clear.data());
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Disable(GL_CULL_FACE);
+    gl.Disable(GL_STENCIL_TEST);
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.Enable(GL_BLEND);
+    gl.BlendEquation(GL_FUNC_ADD);
+    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl.BindVertexArray(no_attributes_.id());
+
+    const glm::mat3 rays(screen.rays());
+    for (Program* program : {&triangle_program_, &near_cell_program_}) {
+        program->set("centre", glm::vec2(screen.centre()));
+        program->set("half_range", static_cast<float>(lattice_.half_range));
+        program->set("ray_x", rays[0]);
+        program->set("ray_y", rays[1]);
+        program->set("ray_1", rays[2]);
+    }
+    triangle_program_.set("lattice_steps", static_cast<float>(lattice_.steps));
+    triangle_program_.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
+    near_cell_program_.set("first_depth", screen.perspective() ? 0.0F : -1e30F);
+    const bool pieces = needs_optics(options_.integrator) || options_.integrator == Integrator::exact;
+    function_.introduce(triangle_program_, pieces, true);
+    function_.introduce(near_cell_program_, pieces, true);
+    function_.bind();
+}
+
+Image ProjectionRenderer::draw(const View& view, const Order& order)
+{
+    if (order.back_to_front.size() != scene_->cell_count())
+        throw InputError(fmt::format("the order lists {} cells; the scene has {}", order.back_to_front.size(),
+                                     scene_->cell_count()));
+    const Context::Current current(*context_);
+    statistics_ = {};
+    auto start = Clock::now();
+    const Screen screen(view, scene_->bounds());
+    set_up(screen);
+    points_.place(screen, lattice_, scene_->mesh().points, scalars_);
+    const GlFunctions& gl = context_->gl();
+    if (!points_buffer_)
+        points_buffer_ = GlObject(*context_, GlKind::buffer);
+    gl.NamedBufferData(points_buffer_.id(), static_cast<GLsizeiptr>(points_.exact.size() * sizeof(glm::vec4)),
+                       points_.exact.data(), GL_STREAM_DRAW);
+    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, points_binding, points_buffer_.id());
+    statistics_.place_s = seconds_since(start);
+
+    start = Clock::now();
+    const SilhouetteTriangles triangles(*scene_, turned_, points_, screen, lattice_);
+    const std::size_t cells = order.back_to_front.size();
+    prepare(order, 0, triangles, *stretches_[0]);
+    for (std::size_t first = 0, i = 0; first < cells; first += stretch_cells, ++i) {
+        // While this stretch is drawn, the next one is made.
+        oneapi::tbb::task_group group;
+        if (first + stretch_cells < cells)
+            group.run([&, this] { prepare(order, first + stretch_cells, triangles, *stretches_[(i + 1) % 2]); });
+        try {
+            issue(*stretches_[i % 2], screen, triangles);
+        } catch (...) {
+            group.wait();
+            throw;
+        }
+        group.wait();
+    }
+    gl.Finish();
+    statistics_.draw_s = seconds_since(start);
+
+    start = Clock::now();
+    Image image{screen.size(), {}};
+    image.pixels.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y));
+    framebuffer_->read(0, {0, 0}, image.size, GL_RGBA, GL_FLOAT, image.pixels.data());
+    context_->check();
+    statistics_.read_s = seconds_since(start);
+    return image;
+}
+
+} // namespace visorder

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "graphics/framebuffer.h"
+#include "graphics/program.h"
+#include "projection/cell_triangles.h"
+#include "projection/function_textures.h"
+#include "projection/projector.h"
+#include "projection/screen.h"
+#include "projection/screen_points.h"
+#include "projection/transfer_function.h"
+#include "projection/upload_ring.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+#include "sorting/sorter.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace visorder {
+
+struct RenderOptions {
+    Projector projector = Projector::planes;
+    Integrator integrator = Integrator::exact;
+    int blending_bits = 32; ///< of a channel of the framebuffer: 32 or 16 (floats), or 8
+    TableOptions tables;
+};
+
+/// What the last frame took. Preparing and drawing overlap.
+struct RenderStatistics {
+    double place_s = 0;         ///< points onto the screen
+    double prepare_s = 0;       ///< cells into triangles
+    double draw_s = 0;          ///< from the first command to the last pixel, what is prepared meanwhile included
+    double read_s = 0;          ///< the image back
+    std::size_t triangles = 0;  ///< drawn
+    std::size_t near_cells = 0; ///< that no triangles stand for, because they reach up to the eye or far off the image
+};
+
+/// Draws a scene of tetrahedra by projecting one cell after another, in the sequence of an Order: what differs between
+/// two images of one renderer is the order alone.
+///
+/// Rays begin at the eye, or, in a parallel view, infinitely far before the scene; near and far plane are ignored. The
+/// scalar is linear in each cell. Positions are computed once a point and rounded to the rasteriser's lattice at once,
+/// so that cells which share a face cover its pixels together: none is missed and none is hit twice. Memory beyond the
+/// scene is about 30 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
+///
+/// Holds references to context and scene, which must outlive it. One `draw` at a time, on the context's thread.
+class ProjectionRenderer {
+public:
+    /// Throws InputError for cells other than tetrahedra, for a mesh without scalars or with one that is not finite
+    /// (naming the point in the caller's numbering), for more than 2^30 points, and for blending bits other than 32,
+    /// 16 and 8; GraphicsError where OpenGL refuses.
+    ProjectionRenderer(const Context& context, const Scene& scene, const TransferFunction& function,
+                       const RenderOptions& options = {});
+    ~ProjectionRenderer();
+    ProjectionRenderer(const ProjectionRenderer&) = delete;
+    ProjectionRenderer& operator=(const ProjectionRenderer&) = delete;
+
+    /// Tables are computed anew where the integrator has any. No order changes.
+    void set_transfer_function(const TransferFunction& function);
+
+    /// Throws InputError for an order that does not list as many cells as the scene has, a view that is no projection
+    /// (see Screen), and a size that cannot be drawn.
+    Image draw(const View& view, const Order& order);
+
+    const RenderStatistics& statistics() const { return statistics_; }
+
+private:
+    struct Stretch;
+
+    void prepare(const Order& order, std::size_t first, const CellTriangles& triangles, Stretch& stretch) const;
+    void issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles);
+    void draw_near_cell(const Screen& screen, CellId cell);
+    void set_up(const Screen& screen);
+
+    const Context* context_;
+    const Scene* scene_;
+    RenderOptions options_;
+    RasterLattice lattice_;
+    std::vector<float> scalars_;       // 0 to 1 over the scene
+    std::vector<std::uint8_t> turned_; // of each cell
+    LargeArray<CellId> inner_cells_;   // of each of the caller's cells
+    Program triangle_program_;
+    Program near_cell_program_;
+    FunctionTextures function_;
+    GlObject no_attributes_;
+    GlObject points_buffer_;
+    UploadRing ring_;
+    std::optional<Framebuffer> framebuffer_;
+    ScreenPoints points_;
+    std::vector<std::unique_ptr<Stretch>> stretches_;
+    RenderStatistics statistics_;
+};
+
+} // namespace visorder

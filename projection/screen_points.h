@@ -1,0 +1,40 @@
+#pragma once
+
+#include "projection/screen.h"
+#include "scene/large_array.h"
+#include "scene/mesh.h"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+
+namespace visorder {
+
+/// How the rasteriser of OpenGL places vertices: on a lattice within pixels, up to some distance from the image.
+struct RasterLattice {
+    int steps;      ///< lattice steps a pixel, a power of two
+    int half_range; ///< pixels from the image's centre that a vertex may be away, a power of two
+};
+
+/// What a point of a mesh is on the screen. Bits tell on which sides of the image it is; a cell of which all points
+/// share one of them is not seen.
+namespace sides {
+inline constexpr std::uint8_t left = 1, right = 2, below = 4, above = 8, behind = 16;
+inline constexpr std::uint8_t all = left | right | below | above | behind;
+/// Too far off the image, too close to the plane through the eye or behind it: it has no place on the lattice.
+inline constexpr std::uint8_t off_lattice = 32;
+} // namespace sides
+
+/// The points of a mesh on the screen, computed once a frame, so that all cells around a point agree on where it is.
+struct ScreenPoints {
+    LargeArray<glm::vec4> exact;    ///< x, y and depth (see ScreenPoint), and the scalar
+    LargeArray<glm::ivec2> snapped; ///< x and y in lattice steps, where the rasteriser has them
+    LargeArray<std::uint8_t> sides;
+
+    /// Reuses memory. `scalars` is one a point. All threads; the same result for any number of them.
+    void place(const Screen& screen, const RasterLattice& lattice, std::span<const glm::dvec3> points,
+               std::span<const float> scalars);
+};
+
+} // namespace visorder

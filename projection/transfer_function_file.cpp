@@ -1,0 +1,115 @@
+#include "projection/transfer_function_file.h"
+
+#include "projection/paraview_colour_map.h"
+#include "scene/error.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace visorder {
+
+namespace {
+
+using nlohmann::json;
+
+json parse(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw InputError("cannot be opened");
+    try {
+        return json::parse(stream);
+    } catch (const json::exception& error) {
+        const std::string message = error.what(); // [name of the error] what is wrong
+        const std::size_t begin = message.find("] ");
+        throw InputError("no JSON: " + (begin == std::string::npos ? message : message.substr(begin + 2)));
+    }
+}
+
+double number(const json& point, const char* key)
+{
+    if (!point.is_object() || !point.contains(key) || !point.at(key).is_number())
+        throw InputError(fmt::format("there is no number \"{}\"", key));
+    return point.at(key).get<double>();
+}
+
+OpticalPoint point_of(const json& point)
+{
+    OpticalPoint result{number(point, "scalar"), number(point, "extinction"), {}};
+    if (!point.contains("colour") || !point.at("colour").is_array() || point.at("colour").size() != 3)
+        throw InputError("there are no three numbers \"colour\"");
+    for (int k = 0; k < 3; ++k) {
+        const json& channel = point.at("colour").at(static_cast<std::size_t>(k));
+        if (!channel.is_number())
+            throw InputError(fmt::format("{} of \"colour\" is not a number", channel.dump()));
+        result.colour[k] = channel.get<double>();
+    }
+    return result;
+}
+
+TransferFunction own(const json& content)
+{
+    if (!content.contains("points") || !content.at("points").is_array())
+        throw InputError("there is no array \"points\"");
+    std::vector<OpticalPoint> points;
+    for (const json& point : content.at("points")) {
+        try {
+            points.push_back(point_of(point));
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("point {}: {}", points.size(), error.what()));
+        }
+    }
+    return TransferFunction(std::move(points));
+}
+
+std::string name_of(const json& map)
+{
+    return map.is_object() && map.contains("Name") && map.at("Name").is_string() ? map.at("Name").get<std::string>()
+                                                                                 : "";
+}
+
+const json& chosen(const json& maps, const std::string& name)
+{
+    if (maps.size() == 1 && name.empty())
+        return maps.front();
+    std::vector<std::string> names;
+    for (const json& map : maps) {
+        if (!name.empty() && name_of(map) == name)
+            return map;
+        names.push_back(name_of(map));
+    }
+    throw InputError(
+        name.empty() ? fmt::format("there are {} colour maps to choose from: {}", maps.size(), fmt::join(names, ", "))
+                     : fmt::format("there is no colour map {}, only {}", name, fmt::join(names, ", ")));
+}
+
+TransferFunction transfer_function_of(const json& content, const TransferFunctionFileOptions& options)
+{
+    if (content.is_object())
+        return own(content);
+    if (!content.is_array() || content.empty())
+        throw InputError("neither an object with \"points\" nor an array of colour maps");
+    const json& map = chosen(content, options.map);
+    if (!map.is_object())
+        throw InputError("a colour map must be an object");
+    return transfer_function_of_paraview(map, options.unit_length);
+}
+
+} // namespace
+
+TransferFunction read_transfer_function(const std::filesystem::path& file, const TransferFunctionFileOptions& options)
+{
+    if (!std::isfinite(options.unit_length) || options.unit_length <= 0)
+        throw InputError(fmt::format("unit length {} must be above 0 and finite", options.unit_length));
+    try {
+        return transfer_function_of(parse(file), options);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+}
+
+} // namespace visorder

@@ -1,0 +1,65 @@
+#include "projection/upload_ring.h"
+
+namespace visorder {
+
+namespace {
+
+// Of offsets of storage buffers; no renderer asks for more.
+constexpr std::size_t alignment = 256;
+
+std::size_t aligned(std::size_t bytes)
+{
+    return (bytes + alignment - 1) / alignment * alignment;
+}
+
+} // namespace
+
+UploadRing::UploadRing(const Context& context, std::size_t segment_bytes, std::size_t segments)
+    : context_(&context), segment_bytes_(aligned(segment_bytes)), buffer_(context, GlKind::buffer),
+      fences_(segments, nullptr)
+{
+    const GlFunctions& gl = context.gl();
+    constexpr GLbitfield flags = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    const auto bytes = static_cast<GLsizeiptr>(segment_bytes_ * segments);
+    gl.NamedBufferStorage(buffer_.id(), bytes, nullptr, flags);
+    memory_ = static_cast<std::byte*>(gl.MapNamedBufferRange(buffer_.id(), 0, bytes, flags));
+    context.check();
+    if (memory_ == nullptr)
+        throw GraphicsError("OpenGL (" + context.renderer() + "): a buffer cannot be mapped");
+}
+
+UploadRing::~UploadRing()
+{
+    const Context::Current current(*context_);
+    for (const GLsync fence : fences_)
+        if (fence != nullptr)
+            context_->gl().DeleteSync(fence);
+}
+
+std::byte* UploadRing::next()
+{
+    const GlFunctions& gl = context_->gl();
+    current_ = (current_ + 1) % fences_.size();
+    if (GLsync& fence = fences_[current_]; fence != nullptr) {
+        constexpr GLuint64 a_second = 1'000'000'000;
+        while (gl.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, a_second) == GL_TIMEOUT_EXPIRED)
+            ;
+        gl.DeleteSync(fence);
+        fence = nullptr;
+    }
+    return memory_ + current_ * segment_bytes_;
+}
+
+void UploadRing::bind(GLuint binding) const
+{
+    context_->gl().BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer_.id(),
+                                   static_cast<GLintptr>(current_ * segment_bytes_),
+                                   static_cast<GLsizeiptr>(segment_bytes_));
+}
+
+void UploadRing::issued()
+{
+    fences_[current_] = context_->gl().FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+} // namespace visorder

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "graphics/gl_object.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace visorder {
+
+/// Memory that the processor writes and the renderer reads, in segments that are used in turn, so that one is filled
+/// while others are drawn from. Its context must be current where it is made and used.
+class UploadRing {
+public:
+    UploadRing(const Context& context, std::size_t segment_bytes, std::size_t segments);
+    ~UploadRing();
+    UploadRing(const UploadRing&) = delete;
+    UploadRing& operator=(const UploadRing&) = delete;
+
+    /// The next segment, once nothing is drawn from it any more. Valid until the next call.
+    std::byte* next();
+
+    /// Lets shaders read the segment that `next` gave out, as the storage buffer of this binding.
+    void bind(GLuint binding) const;
+
+    /// Says that all draws from that segment have been issued.
+    void issued();
+
+    std::size_t segment_bytes() const { return segment_bytes_; }
+
+private:
+    const Context* context_;
+    std::size_t segment_bytes_;
+    GlObject buffer_;
+    std::byte* memory_ = nullptr;
+    std::vector<GLsync> fences_;
+    std::size_t current_ = 0;
+};
+
+} // namespace visorder
