@@ -71,10 +71,12 @@ bool cross(const std::array<SeenVertex, 4>& v, Crossing& crossing)
             ends[count++] = hit(v[opposite == 0 ? 1 : 0], v[opposite <= 1 ? 2 : 1], v[opposite <= 2 ? 3 : 2]);
     if (count == 0)
         return false;
-    // One face alone is hit only by lines through the vertex opposite, if the eye is there.
+    // One face alone is hit only if the eye is at a vertex, where all edges are seen as points: there the other end is.
     if (count == 1) {
-        const std::size_t opposite = std::find(std::begin(hits), std::end(hits), true) - std::begin(hits);
-        ends[1] = {v[opposite].depth, v[opposite].scalar};
+        const SeenVertex& opposite = v[std::find(std::begin(hits), std::end(hits), true) - std::begin(hits)];
+        if (opposite.x != 0 || opposite.y != 0 || opposite.w != 0)
+            return false;
+        ends[1] = {opposite.depth, opposite.scalar};
     }
     if (ends[0].depth > ends[1].depth)
         std::swap(ends[0], ends[1]);

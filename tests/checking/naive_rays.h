@@ -89,13 +89,15 @@ inline Stretch inside_hull(const Ray& ray, const Scene& scene)
     return stretch;
 }
 
+inline Number volume(const std::array<Vector, 4>& p)
+{
+    return glm::dot(p[1] - p[0], glm::cross(p[2] - p[0], p[3] - p[0])) / 6;
+}
+
 /// The scalar where a ray is at a distance, by volumes.
 inline Number scalar_at(const Ray& ray, Number distance, const std::array<Vector, 4>& p, const std::array<float, 4>& s)
 {
     const Vector x = ray.origin + distance * ray.direction;
-    const auto volume = [](const std::array<Vector, 4>& q) {
-        return glm::dot(q[1] - q[0], glm::cross(q[2] - q[0], q[3] - q[0]));
-    };
     Number sum = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         auto q = p;
@@ -132,14 +134,15 @@ void pass_in_steps(Light& light, Number length, int steps, const MediumAlong& me
     }
 }
 
-/// The light of one ray through a scene, its cells tried one by one.
+/// The light of one ray through a scene, its cells tried one by one. Not made for rays along faces.
 inline Light cast(const Scene& scene, const std::vector<MediumPoint>& medium, const Ray& ray, int steps_per_cell)
 {
     const Mesh& mesh = scene.mesh();
     std::vector<std::pair<Stretch, CellId>> passed;
     for (CellId cell = 0; cell < scene.cell_count(); ++cell)
-        if (const Stretch stretch = inside_cell(ray, corners(mesh, cell)); stretch.length() > 1e-12)
-            passed.emplace_back(stretch, cell);
+        if (const auto p = corners(mesh, cell); volume(p) != 0)
+            if (const Stretch stretch = inside_cell(ray, p); stretch.length() > 1e-12)
+                passed.emplace_back(stretch, cell);
     std::sort(passed.begin(), passed.end(), [](const auto& a, const auto& b) { return a.first.begin < b.first.begin; });
     Light light;
     for (const auto& [stretch, cell] : passed) {
