@@ -19,16 +19,24 @@ int sign_of_difference(double a, double b, double c, double d)
     return (rest > 0) - (rest < 0);
 }
 
-// On which side the line passes the edge from a to b: the sign of the determinant of the line's direction, a and b.
-// Moved by (e, e^2), that becomes a polynomial in e, whose first coefficient other than zero decides. If all are zero,
-// the edge is seen as a point, and any answer does that is the same for all its cells.
-bool is_left(const SeenVertex& a, const SeenVertex& b)
+// What is_left says where rounded products are equal.
+bool is_left_of_tie(const SeenVertex& a, const SeenVertex& b)
 {
     if (const int sign = sign_of_difference(a.x, b.y, b.x, a.y); sign != 0)
         return sign > 0;
     if (const int sign = sign_of_difference(b.w, a.y, a.w, b.y); sign != 0)
         return sign > 0;
     return sign_of_difference(a.w, b.x, b.w, a.x) >= 0;
+}
+
+// On which side the line passes the edge from a to b: the sign of the determinant of the line's direction, a and b.
+// Moved by (e, e^2), that becomes a polynomial in e, whose first coefficient other than zero decides. If all are zero,
+// the edge is seen as a point, and any answer does that is the same for all its cells.
+inline bool is_left(const SeenVertex& a, const SeenVertex& b)
+{
+    const double forth = a.x * b.y;
+    const double back = b.x * a.y;
+    return forth != back ? forth > back : is_left_of_tie(a, b);
 }
 
 struct Hit {
@@ -71,10 +79,12 @@ bool cross(const std::array<SeenVertex, 4>& v, Crossing& crossing)
             ends[count++] = hit(v[opposite == 0 ? 1 : 0], v[opposite <= 1 ? 2 : 1], v[opposite <= 2 ? 3 : 2]);
     if (count == 0)
         return false;
-    // One face alone is hit only by lines through the vertex opposite, if the eye is there.
+    // One face alone is hit only if the eye is at a vertex, where all edges are seen as points: there the other end is.
     if (count == 1) {
-        const std::size_t opposite = std::find(std::begin(hits), std::end(hits), true) - std::begin(hits);
-        ends[1] = {v[opposite].depth, v[opposite].scalar};
+        const SeenVertex& opposite = v[std::find(std::begin(hits), std::end(hits), true) - std::begin(hits)];
+        if (opposite.x != 0 || opposite.y != 0 || opposite.w != 0)
+            return false;
+        ends[1] = {opposite.depth, opposite.scalar};
     }
     if (ends[0].depth > ends[1].depth)
         std::swap(ends[0], ends[1]);

@@ -92,8 +92,6 @@ struct Segment {
 
     bool operator<(const Segment& other) const
     {
-        if (pixel != other.pixel)
-            return pixel < other.pixel;
         if (enter != other.enter)
             return enter < other.enter;
         return leave != other.leave ? leave < other.leave : cell < other.cell;
@@ -193,16 +191,32 @@ private:
         std::vector<Segment> segments;
         for (std::size_t i = tile_begin_[tile]; i < tile_begin_[tile + 1]; ++i)
             cross_cell(tile_cells_[i], left, bottom, segments);
-        std::sort(segments.begin(), segments.end());
-        for (auto begin = segments.begin(); begin != segments.end();) {
-            const auto end = std::find_if(begin, segments.end(),
-                                          [&](const Segment& segment) { return segment.pixel != begin->pixel; });
-            const int x = left + static_cast<int>(begin->pixel) % tile_size;
-            const int y = bottom + static_cast<int>(begin->pixel) / tile_size;
+        std::array<std::size_t, tile_size * tile_size + 1> begins{};
+        segments = by_pixel(segments, begins);
+        for (std::size_t pixel = 0; pixel + 1 < begins.size(); ++pixel) {
+            const std::span<Segment> along(segments.data() + begins[pixel], segments.data() + begins[pixel + 1]);
+            if (along.empty())
+                continue;
+            std::sort(along.begin(), along.end());
+            const int x = left + static_cast<int>(pixel) % tile_size;
+            const int y = bottom + static_cast<int>(pixel) / tile_size;
             pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(x)] =
-                integrate({begin, end}, x + 0.5, y + 0.5);
-            begin = end;
+                integrate(along, x + 0.5, y + 0.5);
         }
+    }
+
+    // A tile's segments, those of one pixel together, and where those of each begin.
+    static std::vector<Segment> by_pixel(const std::vector<Segment>& segments, std::span<std::size_t> begins)
+    {
+        for (const Segment& segment : segments)
+            ++begins[segment.pixel];
+        std::size_t end = 0;
+        for (std::size_t& begin : begins)
+            begin = end += begin;
+        std::vector<Segment> result(segments.size());
+        for (const Segment& segment : segments)
+            result[--begins[segment.pixel]] = segment;
+        return result;
     }
 
     // Appends the segments of a cell in the pixels of a tile.

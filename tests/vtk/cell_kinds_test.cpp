@@ -1,7 +1,7 @@
 // Every VTK cell type: what shape it becomes, in which order its corners stand.
 
 #include "reading_error.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "vtk/read_mesh.h"
 #include "vtu_text.h"
 

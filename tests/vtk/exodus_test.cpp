@@ -1,5 +1,5 @@
 #include "reading_error.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <vtk_netcdf.h>

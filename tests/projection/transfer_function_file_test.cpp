@@ -1,0 +1,160 @@
+#include "projection/transfer_function_file.h"
+#include "scene/error.h"
+#include "scene/srgb.h"
+#include "tests/temporary_folder.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <string>
+
+namespace visorder {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+TransferFunction read(const std::string& content, const TransferFunctionFileOptions& options = {})
+{
+    const TemporaryFolder folder;
+    return read_transfer_function(folder.write("function.json", content), options);
+}
+
+/// What is wrong with a file, in one line that names it; empty if nothing.
+std::string fault(const std::string& content, const TransferFunctionFileOptions& options = {})
+{
+    try {
+        read(content, options);
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), AllOf(HasSubstr("function.json: "), Not(HasSubstr("\n"))));
+        return error.what();
+    }
+    return {};
+}
+
+std::string own(const std::string& points)
+{
+    return R"({"points": [)" + points + "]}";
+}
+
+std::string paraview(const std::string& entries)
+{
+    return R"([{"Name": "a map", "RGBPoints": [0, 1, 0, 0, 4, 0, 1, 0])" + entries + "}]";
+}
+
+TEST(TransferFunctionFile, ReadsWhatItsFormatSays)
+{
+    const TransferFunction function = read(own(R"({"scalar": -1, "extinction": 0.5, "colour": [0.1, 0.2, 0.3]},
+                                                  {"scalar": 2.5, "extinction": 7, "colour": [1, 0, 1]},
+                                                  {"scalar": 2.5, "extinction": 0, "colour": [0, 0, 0]})"));
+    ASSERT_EQ(function.points().size(), 3U);
+    EXPECT_EQ(function.points()[0].scalar, -1);
+    EXPECT_EQ(function.points()[0].extinction, 0.5);
+    EXPECT_EQ(function.points()[0].colour, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(function.points()[1].colour, glm::dvec3(1, 0, 1));
+    EXPECT_EQ(function.at(2.5).extinction, 0);
+}
+
+TEST(TransferFunctionFile, NamesTheFileAndThePointAtFault)
+{
+    const std::string good = R"({"scalar": 0, "extinction": 1, "colour": [0, 0, 0]})";
+    const auto after_good = [&](const std::string& point) { return fault(own(good + "," + point)); };
+    EXPECT_THAT(after_good(R"({"scalar": -1, "extinction": 1, "colour": [0, 0, 0]})"),
+                HasSubstr("point 1: scalar -1 is below 0"));
+    EXPECT_THAT(after_good(R"({"scalar": 1, "extinction": -1, "colour": [0, 0, 0]})"),
+                HasSubstr("point 1: extinction -1"));
+    EXPECT_THAT(after_good(R"({"scalar": 1, "extinction": 1, "colour": [0, 0, 2]})"), HasSubstr("point 1: colour"));
+    EXPECT_THAT(after_good(R"({"scalar": null, "extinction": 1, "colour": [0, 0, 0]})"),
+                HasSubstr("point 1: there is no number \"scalar\""));
+    EXPECT_THAT(after_good(R"({"scalar": 1, "colour": [0, 0, 0]})"),
+                HasSubstr("point 1: there is no number \"extinction\""));
+    EXPECT_THAT(after_good(R"({"scalar": 1, "extinction": 1, "colour": [0, 0]})"), HasSubstr("point 1: there are no"));
+    EXPECT_THAT(after_good(R"({"scalar": 1, "extinction": 1, "colour": [0, "a", 0]})"), HasSubstr("point 1: \"a\""));
+    EXPECT_THAT(after_good("17"), HasSubstr("point 1: there is no number"));
+}
+
+TEST(TransferFunctionFile, RefusesWhatIsNoTransferFunction)
+{
+    EXPECT_THAT(fault(own(R"({"scalar": NaN, "extinction": 1, "colour": [0, 0, 0]})")), HasSubstr("no JSON"));
+    EXPECT_THAT(fault(own(R"({"scalar": 1e999, "extinction": 1, "colour": [0, 0, 0]})")), HasSubstr("no JSON"));
+    EXPECT_THAT(fault("{\"points\": [\n"), HasSubstr("no JSON: parse error at line 2"));
+    EXPECT_THAT(fault(""), HasSubstr("no JSON"));
+    EXPECT_THAT(fault("\xff\xfe"), HasSubstr("no JSON"));
+    EXPECT_THAT(fault("3"), HasSubstr("neither"));
+    EXPECT_THAT(fault("[]"), HasSubstr("neither"));
+    EXPECT_THAT(fault("[3]"), HasSubstr("must be an object"));
+    EXPECT_THAT(fault("{}"), HasSubstr("no array \"points\""));
+    EXPECT_THAT(fault(own("")), HasSubstr("needs a point"));
+    const TemporaryFolder folder;
+    EXPECT_THROW(read_transfer_function(folder.file("missing.json")), InputError);
+}
+
+TEST(TransferFunctionFile, TurnsParaViewsOpacitiesIntoExtinctionOverTheUnitLength)
+{
+    const TransferFunction function = read(
+        paraview(R"(, "ColorSpace": "RGB", "Points": [0, 0.2, 0.5, 0, 1, 0.2, 0.5, 0, 3, 0.8, 0.5, 0])"), {2.0, ""});
+    const auto opacity = [&](double scalar) { return -std::expm1(-function.at(scalar).extinction * 2.0); };
+    EXPECT_NEAR(opacity(-5), 0.2, 1e-15);
+    EXPECT_NEAR(opacity(0.5), 0.2, 1e-15);
+    EXPECT_NEAR(opacity(2), 0.5, 1e-15); // a point of the 16 parts
+    for (double scalar = 1; scalar < 3; scalar += 0.01)
+        EXPECT_NEAR(opacity(scalar), 0.2 + (scalar - 1) * 0.3, 1e-3);
+    EXPECT_NEAR(opacity(9), 0.8, 1e-15);
+    EXPECT_EQ(function.at(0).colour, glm::dvec3(1, 0, 0));
+    EXPECT_NEAR(function.at(1).colour.r, 0.75, 1e-15);
+    EXPECT_EQ(function.at(4).colour, glm::dvec3(0, 1, 0));
+}
+
+TEST(TransferFunctionFile, MakesParaViewsColoursLinear)
+{
+    const TransferFunction function = read(R"([{"RGBPoints": [1, 0.5, 0.25, 1]}])");
+    EXPECT_EQ(function.at(1).colour, linear_of_srgb(glm::dvec3(0.5, 0.25, 1)));
+}
+
+TEST(TransferFunctionFile, KeepsParaViewsJumps)
+{
+    const TransferFunction function = read(R"([{"RGBPoints": [0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 3, 0, 0, 1],
+        "Points": [0, 0.1, 0.5, 0, 2, 0.1, 0.5, 0, 2, 0.6, 0.5, 0]}])");
+    EXPECT_EQ(function.at(0.999999).colour, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(function.at(1).colour, glm::dvec3(0, 0, 1));
+    EXPECT_NEAR(function.at(1.999999).extinction, -std::log(0.9), 1e-14);
+    EXPECT_NEAR(function.at(2).extinction, -std::log(0.4), 1e-14);
+}
+
+TEST(TransferFunctionFile, LetsOpacityRiseWhereParaViewGivesNone)
+{
+    const TransferFunction function = read(paraview(""));
+    EXPECT_EQ(function.at(0).extinction, 0);
+    EXPECT_NEAR(function.at(2).extinction, std::log(2.0), 1e-14);
+    EXPECT_NEAR(function.at(4).extinction, -std::log(0.001), 1e-12); // finite, though all is hidden
+}
+
+TEST(TransferFunctionFile, TakesOneOfSeveralMapsByItsName)
+{
+    const std::string maps = R"([{"Name": "a", "RGBPoints": [0, 0, 0, 0]}, {"Name": "b", "RGBPoints": [5, 1, 1, 1]}])";
+    EXPECT_EQ(read(maps, {1, "b"}).points().front().scalar, 5);
+    EXPECT_THAT(fault(maps), HasSubstr("2 colour maps to choose from: a, b"));
+    EXPECT_THAT(fault(maps, {1, "c"}), HasSubstr("no colour map c, only a, b"));
+}
+
+TEST(TransferFunctionFile, RefusesWhatItCannotTakeOfParaView)
+{
+    EXPECT_THAT(fault(paraview(R"(, "Points": [0, 0, 0.4, 0])")), HasSubstr("Points, point 0: midpoint 0.4"));
+    EXPECT_THAT(fault(paraview(R"(, "Points": [0, 0, 0.5, 0, 1, 0, 0.5, 0.1])")), HasSubstr("Points, point 1: midp"));
+    EXPECT_THAT(fault(paraview(R"(, "Points": [0, 1.5, 0.5, 0])")), HasSubstr("Points, point 0: opacity 1.5"));
+    EXPECT_THAT(fault(paraview(R"(, "Points": [1, 0, 0.5, 0, 0, 0, 0.5, 0])")), HasSubstr("Points, point 1: scalar 0"));
+    EXPECT_THAT(fault(paraview(R"(, "Points": [1, 0, 0.5])")), HasSubstr("Points must be an array of 4 numbers"));
+    EXPECT_THAT(fault(paraview(R"(, "Points": [1, 0, 0.5, "x"])")), HasSubstr("Points, point 0: \"x\""));
+    EXPECT_THAT(fault(paraview(R"(, "ColorSpace": "HSV")")), HasSubstr("ColorSpace \"HSV\""));
+    EXPECT_THAT(fault(paraview(R"(, "ColorSpace": "Step")")), HasSubstr("ColorSpace \"Step\""));
+    EXPECT_THAT(fault(paraview(R"(, "UseLogScale": 1)")), HasSubstr("UseLogScale"));
+    EXPECT_THAT(fault(R"([{"IndexedColors": [0, 0, 0]}])"), HasSubstr("no RGBPoints"));
+    EXPECT_THAT(fault(R"([{"RGBPoints": [0, 0, 0, -1]}])"), HasSubstr("RGBPoints, point 0: colour"));
+    EXPECT_THAT(fault(R"([{"RGBPoints": [0, 0, 0, 0, -1, 0, 0, 0]}])"), HasSubstr("RGBPoints, point 1: scalar -1"));
+    EXPECT_EQ(fault(paraview(R"(, "ColorSpace": "Diverging", "UseLogScale": 0, "NanColor": [0, 0, 0])")), "");
+    EXPECT_THROW(read(paraview(""), {0, ""}), InputError);
+    EXPECT_THROW(read(paraview(""), {std::nan(""), ""}), InputError);
+}
+
+} // namespace
+} // namespace visorder
