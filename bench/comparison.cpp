@@ -3,6 +3,7 @@
 #include "bench/generated_scene.h"
 #include "bench/views.h"
 #include "checking/order_checker.h"
+#include "graphics/graphics_error.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
 #include "sorting/registry.h"
@@ -98,6 +99,9 @@ Candidate make_candidate(const SorterInfo& info, const Scene& scene, const Sorte
     try {
         candidate.sorter = make_sorter(info.name, scene, options);
     } catch (const InputError& error) {
+        candidate.skipped = error.what();
+        return candidate;
+    } catch (const GraphicsError& error) {
         candidate.skipped = error.what();
         return candidate;
     }
