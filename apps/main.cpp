@@ -34,6 +34,7 @@ int main(int argc, char** argv)
     add_sort_command(app, command);
     add_check_command(app, command);
     add_inspect_command(app, command);
+    add_layers_command(app, command);
     add_sorters_command(app, command);
     try {
         app.parse(argc, argv);

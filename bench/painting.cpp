@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <png.h>
 
@@ -78,26 +79,49 @@ void fill(Picture& picture, const std::vector<glm::dvec2>& hull, const glm::dvec
     }
 }
 
-} // namespace
-
-Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity)
+template <class Colour>
+Picture painted(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity,
+                const Colour& colour)
 {
     Picture picture{view.size, {}};
     picture.pixels.assign(static_cast<std::size_t>(view.size.x * view.size.y), glm::dvec3(1));
     for (CellId cell : back_to_front) {
         std::vector<glm::dvec2> corners;
-        double scalar = 0;
         for (PointId p : mesh.cell(cell)) {
             const glm::dvec4 clip = view.world_to_clip * glm::dvec4(mesh.points[p], 1);
             if (clip.w <= 0)
                 break;
             corners.emplace_back((clip.x / clip.w + 1) / 2 * view.size.x, (1 - clip.y / clip.w) / 2 * view.size.y);
-            scalar += mesh.scalars.empty() ? 0.5 : static_cast<double>(mesh.scalars[p]);
         }
         if (corners.size() == mesh.cell(cell).size())
-            fill(picture, hull_of(corners), colour_of(scalar / static_cast<double>(corners.size())), opacity);
+            fill(picture, hull_of(corners), colour(cell), opacity);
     }
     return picture;
+}
+
+} // namespace
+
+Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity)
+{
+    return painted(mesh, back_to_front, view, opacity, [&](CellId cell) {
+        double scalar = 0;
+        for (PointId p : mesh.cell(cell))
+            scalar += mesh.scalars.empty() ? 0.5 : static_cast<double>(mesh.scalars[p]);
+        return colour_of(scalar / static_cast<double>(mesh.cell(cell).size()));
+    });
+}
+
+Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view,
+              std::span<const glm::dvec3> colours)
+{
+    return painted(mesh, back_to_front, view, 1, [&](CellId cell) {
+        const glm::dvec3& a = mesh.points[mesh.cell(cell)[0]];
+        const glm::dvec3 normal = glm::cross(mesh.points[mesh.cell(cell)[1]] - a, mesh.points[mesh.cell(cell)[2]] - a);
+        const glm::dvec3 towards = glm::dvec3(view.eye) - view.eye.w * a;
+        const double lengths = glm::length(normal) * glm::length(towards);
+        const double facing = lengths > 0 ? std::abs(glm::dot(normal, towards)) / lengths : 0;
+        return colours[cell] * (0.55 + 0.45 * facing);
+    });
 }
 
 Picture difference(const Picture& a, const Picture& b, double amplification)

@@ -20,6 +20,10 @@ struct Picture {
 /// scalar. Not a volume renderer: what it is for is to show where two orders differ. Takes cells before the eye only.
 Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity);
 
+/// The same with a colour of each cell's own, opaque, darker where a triangle is turned away.
+Picture paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view,
+              std::span<const glm::dvec3> colours);
+
 /// Where two pictures of one size differ: the largest difference of a pixel's channels, times `amplification`.
 Picture difference(const Picture& a, const Picture& b, double amplification);
 
