@@ -242,6 +242,29 @@ TEST(RayCaster, FromFarAwayIsTheParallelView)
     EXPECT_GT(compared, far.pixels.size() / 2);
 }
 
+TEST(RayCaster, SeesTheSameFarFromTheOrigin)
+{
+    const Mesh mesh = with_scalars(carved_delaunay(40, 64, 0.5, 3));
+    Mesh moved = mesh;
+    const glm::dvec3 offset(1 << 24, -(1 << 25), 3 << 22);
+    for (glm::dvec3& p : moved.points)
+        p += offset; // exactly: coordinates are small integers
+    const Scene near(mesh), far(moved);
+    const glm::dvec3 eye(150, 80, 110), target(32);
+    RayCastOptions options;
+    options.silhouette_margin = 0.01;
+    const auto expect_same = [&](const View& of_near, const View& of_far, double tolerance) {
+        const RayCast a = cast_rays(near, medium_with_jumps, of_near, options);
+        const RayCast b = cast_rays(far, medium_with_jumps, of_far, options);
+        for (std::size_t i = 0; i < a.pixels.size(); ++i)
+            for (int k = 0; k < 4 && a.near_silhouette[i] == 0; ++k)
+                ASSERT_NEAR(a.pixels[i][k], b.pixels[i][k], tolerance) << "pixel " << i;
+    };
+    expect_same(look_at(eye, target, 56, 40, {60, 50}), look_at(eye + offset, target + offset, 56, 40, {60, 50}), 1e-9);
+    // A parallel view has nothing but its matrix, which is rounded at the distance of the origin.
+    expect_same(parallel(eye, target, 56, {60, 50}), parallel(eye, target + offset, 56, {60, 50}), 1e-6);
+}
+
 TEST(RayCaster, ClipsAtTheNearAndFarPlanesOnlyIfAsked)
 {
     Mesh box;
