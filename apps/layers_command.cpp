@@ -159,7 +159,7 @@ std::vector<glm::dvec3> colours_of(const Layers& layers)
             const double hue = std::fmod(0.02 + 0.618034 * (layers.layer[item] - 1), 1.0);
             for (int k = 0; k < 3; ++k)
                 colours[item][k] =
-                    0.95 - 0.75 * std::clamp(2 - std::abs(std::fmod(6 * hue + 5 - 2 * k, 6.0) - 3), 0.0, 1.0);
+                    0.92 - 0.6 * std::clamp(2 - std::abs(std::fmod(6 * hue + 5 - 2 * k, 6.0) - 3), 0.0, 1.0);
         }
     for (const Layers::Unproven& unproven : layers.unproven)
         colours[unproven.item] = glm::dvec3(0.6);

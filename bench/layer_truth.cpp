@@ -85,13 +85,9 @@ PixelBox pixels_of(const std::array<glm::dvec3, 3>& corners, const View& view, g
             glm::ivec2(glm::clamp(glm::ceil(high), glm::dvec2(0), glm::dvec2(size)))};
 }
 
-struct Met {
-    std::uint32_t pixel;
-    CellId triangle;
-    double distance;
-};
+} // namespace
 
-std::vector<Met> all_met(const Mesh& mesh, const View& view, glm::ivec2 size)
+std::vector<TrueFragment> true_fragments(const Mesh& mesh, const View& view, glm::ivec2 size)
 {
     const PixelRays rays(view, size);
     std::vector<PixelRay> of_pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
@@ -101,7 +97,7 @@ std::vector<Met> all_met(const Mesh& mesh, const View& view, glm::ivec2 size)
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             of_pixels[number(x, y)] = rays.through(x, y);
-    std::vector<Met> met;
+    std::vector<TrueFragment> met;
     for (CellId triangle = 0; triangle < mesh.cell_count(); ++triangle) {
         const auto vertices = mesh.cell(triangle);
         const std::array corners{mesh.points[vertices[0]], mesh.points[vertices[1]], mesh.points[vertices[2]]};
@@ -112,27 +108,25 @@ std::vector<Met> all_met(const Mesh& mesh, const View& view, glm::ivec2 size)
                     !std::isnan(distance))
                     met.push_back({number(x, y), triangle, distance});
     }
-    std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) {
+    std::sort(met.begin(), met.end(), [](const TrueFragment& a, const TrueFragment& b) {
         return a.pixel != b.pixel ? a.pixel < b.pixel : a.distance < b.distance;
     });
     return met;
 }
 
-double diagonal(const Mesh& mesh)
+double tie_distance(const Mesh& mesh)
 {
     Box box;
     for (const glm::dvec3& point : mesh.points)
         box.add(point);
-    return glm::distance(box.min, box.max);
+    return 0x1p-22 * glm::distance(box.min, box.max);
 }
-
-} // namespace
 
 LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers)
 {
     constexpr std::size_t most_witnesses = 5;
-    const double tie = 0x1p-22 * diagonal(mesh);
-    const std::vector<Met> met = all_met(mesh, view, size);
+    const double tie = tie_distance(mesh);
+    const std::vector<TrueFragment> met = true_fragments(mesh, view, size);
     std::vector<std::size_t> cycle(mesh.cell_count(), 0);
     for (std::size_t i = 0; i < layers.cycles.size(); ++i)
         for (CellId triangle : layers.cycles[i])
@@ -140,7 +134,7 @@ LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, con
 
     LayerCheck result;
     result.fragments = met.size();
-    const auto witness = [&](std::size_t& count, const Met& at, const std::string& what) {
+    const auto witness = [&](std::size_t& count, const TrueFragment& at, const std::string& what) {
         if (++count <= most_witnesses)
             result.witnesses.push_back(fmt::format("pixel {},{}: {}", at.pixel % static_cast<std::uint32_t>(size.x),
                                                    at.pixel / static_cast<std::uint32_t>(size.x), what));

@@ -5,10 +5,27 @@
 #include "scene/view.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace visorder {
+
+/// A triangle at a sample point.
+struct TrueFragment {
+    std::uint32_t pixel; ///< y * width + x, rows from the bottom up
+    CellId triangle;
+    double distance; ///< along the ray; in a parallel view from anywhere, so that it may be negative
+};
+
+/// All triangles of a mesh at all sample points of an image that they cover, pixel by pixel and nearest first: rays in
+/// world coordinates through the centres of the pixels, met with the triangles in double precision. Shares nothing with
+/// what draws them.
+std::vector<TrueFragment> true_fragments(const Mesh& mesh, const View& view, glm::ivec2 size);
+
+/// How far two triangles must be apart along a ray, so that 32-bit depths tell for sure which one is nearer: 2^-22 of
+/// the bounding box's diagonal.
+double tie_distance(const Mesh& mesh);
 
 /// The layers of an image held against the depths of its triangles.
 struct LayerCheck {
@@ -22,10 +39,8 @@ struct LayerCheck {
     std::vector<std::string> witnesses; ///< of the first few `wrong` and `missed`
 };
 
-/// Holds `layers`, whose items are the cells of a mesh of triangles, against the truth at every sample point of the
-/// image: rays in world coordinates through the centres of the pixels, met with the triangles in double precision.
-/// Shares nothing with what it checks. Two triangles closer along the ray than 2^-22 of the bounding box's diagonal are
-/// a tie.
+/// Holds `layers`, whose items are the cells of a mesh of triangles, against the true fragments at every sample point
+/// of the image.
 LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers);
 
 } // namespace visorder

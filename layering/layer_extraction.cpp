@@ -12,6 +12,8 @@ namespace visorder {
 
 namespace {
 
+constexpr std::uint32_t most_layers_by_passes = 255;
+
 std::unique_ptr<LayerScan> make_scan(const Context& context, LayerVariant variant, int block)
 {
     if (variant == LayerVariant::compute)
@@ -164,6 +166,8 @@ bool LayerExtraction::extract_layer(Layers& layers)
     scan_->find_candidates(candidates_);
     if (candidates_.empty())
         return false;
+    if (layers.count == most_layers_by_passes)
+        return take_apart(layers);
     for (LayerScan::Outcome outcome{true, false}; outcome.again && !candidates_.empty();) {
         watch.lap();
         buffer_.draw_farthest(candidates_, scan_->alive());
@@ -184,10 +188,8 @@ bool LayerExtraction::extract_layer(Layers& layers)
             break;
         }
     }
-    if (candidates_.empty()) {
-        take_apart(layers);
-        return false;
-    }
+    if (candidates_.empty())
+        return take_apart(layers);
     ++layers.count;
     for (std::uint32_t item : candidates_)
         layers.layer[item] = layers.count;
@@ -195,7 +197,8 @@ bool LayerExtraction::extract_layer(Layers& layers)
     return true;
 }
 
-void LayerExtraction::take_apart(Layers& layers)
+// Of all that is left. Returns that no layer may follow.
+bool LayerExtraction::take_apart(Layers& layers)
 {
     Successions successions;
     Stopwatch watch;
@@ -233,6 +236,7 @@ void LayerExtraction::take_apart(Layers& layers)
     }
     std::sort(layers.cycles.begin(), layers.cycles.end());
     work_.scanning_s += watch.lap() - in_sequences;
+    return false;
 }
 
 std::size_t LayerExtraction::bytes() const

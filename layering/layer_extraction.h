@@ -52,8 +52,9 @@ enum class LayerVariant {
 /// 5. Where nothing is left, T contains a cycle (step 5).
 ///
 /// Two things are added. An item is taken off wherever it is not what the nearest image shows, because the one in front
-/// of it may itself have been taken off before. And the extraction does not end at a cycle: what is left of T is taken
-/// apart pixel by pixel, so that only the items in cycles are left without proof, not all that lies behind them.
+/// of it may itself have been taken off before. And the extraction does not end at a cycle: what is left of T is then
+/// taken apart pixel by pixel (PixelSequences), so that only the items in cycles are left without proof, not all that
+/// lies behind them. So is what lies behind the 255th layer, where drawing all of T for each would take long.
 ///
 /// An item counts as covering a pixel if the pixel's centre lies strictly inside it; of several at one depth, as 32-bit
 /// numbers have it, the one with the lower number is the nearer. So the layers depend neither on the variant nor on how
@@ -77,7 +78,7 @@ public:
 
 private:
     bool extract_layer(Layers& layers);
-    void take_apart(Layers& layers);
+    bool take_apart(Layers& layers);
 
     const Context* context_;
     ItemBuffer buffer_;

@@ -10,7 +10,6 @@ namespace visorder {
 
 namespace {
 
-constexpr std::uint32_t capacity = 1 << 22; // fragments, 48 MiB
 constexpr std::size_t head_words = 4;
 
 constexpr const char* append_text = R"(
@@ -41,8 +40,9 @@ void main()
 
 } // namespace
 
-PixelSequences::PixelSequences(ItemBuffer& items)
+PixelSequences::PixelSequences(ItemBuffer& items, std::uint32_t capacity)
     : items_(items),
+      capacity_(capacity),
       append_(items.context(), "fragment lists",
               {{GL_VERTEX_SHADER, ItemBuffer::vertex_shader()},
                {GL_FRAGMENT_SHADER, std::string(ItemBuffer::fragment_preamble()) + append_text}})
@@ -66,9 +66,9 @@ void PixelSequences::visit_part(std::span<const std::uint32_t> items, const Pixe
     Stopwatch watch;
     if (!list_) {
         list_ = GlObject(items_.context(), GlKind::buffer);
-        gl.NamedBufferData(list_.id(), head_words * 4 + capacity * sizeof(Fragment), nullptr, GL_DYNAMIC_READ);
+        gl.NamedBufferData(list_.id(), head_words * 4 + capacity_ * sizeof(Fragment), nullptr, GL_DYNAMIC_READ);
     }
-    const std::array<std::uint32_t, head_words> head{0, capacity, static_cast<std::uint32_t>(items_.size().x), 0};
+    const std::array<std::uint32_t, head_words> head{0, capacity_, static_cast<std::uint32_t>(items_.size().x), 0};
     gl.NamedBufferSubData(list_.id(), 0, sizeof(head), head.data());
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, list_.id());
     items_.draw_with(append_, items, within);
@@ -79,7 +79,7 @@ void PixelSequences::visit_part(std::span<const std::uint32_t> items, const Pixe
     std::uint32_t count = 0;
     gl.GetNamedBufferSubData(list_.id(), 0, sizeof(count), &count);
     const bool splits = within.size.x > 1 || within.size.y > 1;
-    if (count > capacity && splits) {
+    if (count > capacity_ && splits) {
         PixelRectangle first = within, second = within;
         const int axis = within.size.y > 1 ? 1 : 0;
         first.size[axis] = within.size[axis] / 2;
@@ -89,7 +89,7 @@ void PixelSequences::visit_part(std::span<const std::uint32_t> items, const Pixe
         visit_part(items, second, visit);
         return;
     }
-    if (count > capacity)
+    if (count > capacity_)
         throw GraphicsError("more triangles than a fragment list holds cover one pixel");
     fragments_.resize(count);
     if (count > 0)
@@ -128,7 +128,7 @@ void PixelSequences::sort_by_pixel(const PixelRectangle& within)
 
 std::size_t PixelSequences::bytes() const
 {
-    const std::size_t of_list = list_ ? head_words * 4 + capacity * sizeof(Fragment) : 0;
+    const std::size_t of_list = list_ ? head_words * 4 + capacity_ * sizeof(Fragment) : 0;
     return of_list + (fragments_.capacity() + sorted_.capacity()) * sizeof(Fragment) +
            begin_.capacity() * sizeof(begin_[0]);
 }

@@ -23,9 +23,11 @@ struct Fragment {
 /// The context of the item buffer must be current.
 class PixelSequences {
 public:
-    explicit PixelSequences(ItemBuffer& items);
+    /// Lists of up to `capacity` fragments, 12 bytes each.
+    explicit PixelSequences(ItemBuffer& items, std::uint32_t capacity = 1 << 22);
 
-    /// Calls `visit` for every pixel in `within` that any of the items covers. `items` ascend.
+    /// Calls `visit` for every pixel in `within` that any of the items covers. `items` ascend. Throws GraphicsError
+    /// where one pixel alone has more fragments than a list holds.
     void visit(std::span<const std::uint32_t> items, const PixelRectangle& within,
                const std::function<void(std::span<const Fragment>)>& visit);
 
@@ -43,6 +45,7 @@ private:
     void sort_by_pixel(const PixelRectangle& within);
 
     ItemBuffer& items_;
+    std::uint32_t capacity_;
     Program append_;
     GlObject list_;
     std::vector<Fragment> fragments_;
