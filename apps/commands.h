@@ -12,6 +12,7 @@ using Command = std::function<int()>;
 void add_check_command(CLI::App& app, Command& chosen);
 void add_compare_command(CLI::App& app, Command& chosen);
 void add_inspect_command(CLI::App& app, Command& chosen);
+void add_layers_command(CLI::App& app, Command& chosen);
 void add_render_command(CLI::App& app, Command& chosen);
 void add_sort_command(CLI::App& app, Command& chosen);
 void add_sorters_command(CLI::App& app, Command& chosen);

@@ -1,12 +1,11 @@
 #include "apps/commands.h"
+#include "apps/image_size.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/sorter_options.h"
 #include "bench/comparison.h"
 #include "bench/report.h"
-#include "scene/error.h"
 
-#include <charconv>
 #include <cstdio>
 #include <fmt/format.h>
 #include <memory>
@@ -29,23 +28,10 @@ struct Arguments {
 const std::vector<std::string> default_scenes{"delaunay:200000", "carved:200000", "grid:150000", "fin:150000",
                                               "pinwheel"};
 
-glm::ivec2 size_of(const std::string& text)
-{
-    glm::ivec2 size(0);
-    const char* const end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, size.x);
-    if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-        const auto height = std::from_chars(width.ptr + 1, end, size.y);
-        if (height.ec == std::errc() && height.ptr == end && size.x > 0 && size.y > 0)
-            return size;
-    }
-    throw InputError(fmt::format("--size takes WxH in pixels, such as 512x512, not \"{}\"", text));
-}
-
 int run(Arguments& arguments)
 {
     ComparisonOptions& options = arguments.options;
-    options.size = size_of(arguments.size);
+    options.size = image_size(arguments.size, "--size");
     options.subdivide = !arguments.whole;
     if (arguments.sorters != std::vector<std::string>{"all"})
         options.sorters = arguments.sorters;
@@ -56,7 +42,9 @@ int run(Arguments& arguments)
         Progress progress;
         comparison = compare(options, [&](const std::string& what) { progress.show(what); });
     }
-    const Machine machine = this_machine();
+    Machine machine = this_machine();
+    if (!comparison.gl_renderer.empty())
+        machine.gl_renderer = comparison.gl_renderer;
     if (!arguments.json_file.empty())
         write_file(arguments.json_file, json(comparison, machine));
     const int views = comparison.runs.empty() ? 0 : comparison.runs.back().view + 1;
@@ -91,6 +79,9 @@ void add_compare_command(CLI::App& app, Command& chosen)
     command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
     command->add_flag("--statistics", arguments->statistics, "Also what each sorter counts of its own work");
     add_sorter_options(*command, options.sorter_options);
+    command->add_flag("!--no-frames", options.frames, "Draw nothing: no image errors, no ray caster");
+    command->add_option("--images", options.images,
+                        "A folder to keep the frames in, and how they differ from the exact order's, tenfold");
     command->add_option("--json", arguments->json_file, "Write every run to a file");
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }

@@ -35,6 +35,7 @@ int main(int argc, char** argv)
     add_check_command(app, command);
     add_render_command(app, command);
     add_inspect_command(app, command);
+    add_layers_command(app, command);
     add_sorters_command(app, command);
     try {
         app.parse(argc, argv);

@@ -37,7 +37,6 @@ struct Arguments {
     std::size_t table_scalars = 0;
     std::size_t table_lengths = TableOptions{}.lengths;
     bool even_lengths = false;
-    std::string platform = name(GlPlatform::automatic);
     std::vector<float> background{1, 1, 1};
     std::string output;
 };
@@ -84,9 +83,8 @@ TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
         unit_length = diameter > 0 ? diameter / 10 : 1;
     if (std::find(names.begin(), names.end(), arguments.transfer) == names.end()) {
         if (!std::filesystem::exists(arguments.transfer))
-            throw InputError(
-                fmt::format("{}: neither a file nor a transfer function; there are: {}", arguments.transfer,
-                            fmt::join(names, ", ")));
+            throw InputError(fmt::format("{}: neither a file nor a transfer function; there are: {}",
+                                         arguments.transfer, fmt::join(names, ", ")));
         return read_transfer_function(arguments.transfer, {unit_length, arguments.map});
     }
     const auto& scalars = scene.mesh().scalars;
@@ -104,7 +102,7 @@ int run(const Arguments& arguments)
     options.integrator = integrator_named(arguments.integrator);
     options.blending_bits = arguments.blending_bits;
     options.tables = {arguments.table_scalars, arguments.table_lengths, !arguments.even_lengths};
-    const GlPlatform platform = gl_platform(arguments.platform);
+    const GlPlatform platform = gl_platform(arguments.sorter_options.gl);
 
     SourcedMesh sourced = load(*arguments.source);
     const Scene scene(std::move(sourced.mesh));
@@ -173,7 +171,6 @@ void add_render_command(CLI::App& app, Command& chosen)
         ->capture_default_str();
     command->add_flag("--even-lengths", arguments->even_lengths,
                       "Space the entries along the length evenly, not as 1 - 2^-length");
-    command->add_option("--gl", arguments->platform, "OpenGL by auto, egl or osmesa")->capture_default_str();
     command->add_option("--background", arguments->background, "Of a PNG, three linear numbers in [0, 1]")
         ->delimiter(',')
         ->expected(3);

@@ -1,5 +1,7 @@
 #include "apps/sorter_options.h"
 
+#include "apps/image_size.h"
+
 #include <map>
 #include <string>
 
@@ -18,6 +20,15 @@ void add_sorter_options(CLI::App& command, SorterOptions& options)
     command.add_flag("--windows", options.newell_windows, "Of newell: a list for each of several windows of the image");
     command.add_option("--bsp-seed", options.bsp_seed, "Of bsp-xmpvo: of the samples it takes splitting planes from")
         ->capture_default_str();
+    command.add_option_function<std::string>(
+        "--layer-size", [&options](const std::string& text) { options.layer_size = image_size(text, "--layer-size"); },
+        "Of layers* and xmpvo-layered: pixels of the image they look at, WxH (default: the view's)");
+    command.add_option("--layer-block", options.layer_block, "Of layers-blocked: pixels of a block's side")
+        ->capture_default_str()
+        ->check(CLI::IsMember({32, 64, 128}));
+    command.add_option("--gl", options.gl, "Where OpenGL comes from")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "egl", "osmesa"}));
 }
 
 } // namespace visorder

@@ -1,8 +1,10 @@
 #include "bench/comparison.h"
 
 #include "bench/generated_scene.h"
+#include "bench/image_file.h"
 #include "bench/views.h"
 #include "checking/order_checker.h"
+#include "graphics/graphics_error.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
 #include "sorting/registry.h"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -100,6 +103,9 @@ Candidate make_candidate(const SorterInfo& info, const Scene& scene, const Sorte
     } catch (const InputError& error) {
         candidate.skipped = error.what();
         return candidate;
+    } catch (const GraphicsError& error) {
+        candidate.skipped = error.what();
+        return candidate;
     }
     candidate.make_s = now() - begin;
     const auto derived = scene.derived();
@@ -134,10 +140,95 @@ void measure(const Scene& scene, Candidate& candidate, const NamedView& view, in
                                                 [](const auto& cycle) { return cycle.size(); });
 }
 
+std::unique_ptr<Frames> make_frames(const Scene& scene, const ComparisonOptions& options, SceneResult& description)
+{
+    if (!options.frames)
+        return nullptr;
+    if (options.images.empty() && scene.cell_count() > options.frames_up_to) {
+        description.notes.push_back(
+            fmt::format("no frames of more than {} cells, unless --images asks for them", options.frames_up_to));
+        return nullptr;
+    }
+    try {
+        return std::make_unique<Frames>(scene, gl_platform(options.sorter_options.gl));
+    } catch (const InputError& error) {
+        description.notes.push_back(fmt::format("no frames: {}", error.what()));
+    } catch (const GraphicsError& error) {
+        description.notes.push_back(fmt::format("no frames: {}", error.what()));
+    }
+    return nullptr;
+}
+
+// The frames of one view, drawn in the orders of all sorters.
+class ViewFrames {
+public:
+    void keep(Image image, const Order& order, RunResult& run)
+    {
+        if (exact_ == none && run.guarantee == Guarantee::exact) {
+            exact_ = drawn_.size();
+            exact_order_ = order;
+        }
+        drawn_.push_back({std::move(image), &run});
+    }
+
+    // Draws the frame that all are held against, where none of the sorters is exact.
+    void draw_exact(Frames& frames, const Scene& scene, const View& view)
+    {
+        if (exact_ != none)
+            return;
+        const auto sorter = make_sorter("auto", scene);
+        if (sorter->guarantee() != Guarantee::exact)
+            return;
+        sorter->sort(view, exact_order_);
+        exact_ = drawn_.size();
+        drawn_.push_back({frames.draw(view, exact_order_), nullptr});
+    }
+
+    void compare() const
+    {
+        for (const Drawn& drawn : drawn_)
+            if (exact_ != none && drawn.run != nullptr) {
+                const ImageErrors errors = image_errors(drawn.image, drawn_[exact_].image);
+                drawn.run->image_rmse = errors.root_mean_square;
+                drawn.run->image_max = errors.largest;
+            }
+    }
+
+    // SCENE-VIEW-SORTER.png, and how it differs, amplified, where it does.
+    void write(const std::filesystem::path& folder) const
+    {
+        std::filesystem::create_directories(folder);
+        for (const Drawn& drawn : drawn_) {
+            if (drawn.run == nullptr)
+                continue;
+            std::string title = fmt::format("{}-view{}-{}", drawn.run->scene, drawn.run->view, drawn.run->sorter);
+            std::replace(title.begin(), title.end(), ':', '-');
+            write_png(drawn.image, folder / (title + ".png"));
+            if (drawn.run->image_max.value_or(0) > 0)
+                write_png(difference_image(drawn.image, drawn_[exact_].image, difference_amplification),
+                          folder / (title + "-difference.png"), {.to_srgb = false});
+        }
+    }
+
+    const Order* exact_order() const { return exact_ == none ? nullptr : &exact_order_; }
+
+private:
+    struct Drawn {
+        Image image;
+        RunResult* run; // none for a frame that belongs to no sorter of the comparison
+    };
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    static constexpr double difference_amplification = 10;
+
+    std::vector<Drawn> drawn_;
+    std::size_t exact_ = none;
+    Order exact_order_;
+};
+
 void compare_on(const Source& source, const ComparisonOptions& options, const Progress& progress, Comparison& result)
 {
     progress(fmt::format("{}: making the scene", source.name));
-    SceneResult description{source.name, 0, 0, false, false, 0, {}};
+    SceneResult description{source.name, 0, 0, false, false, 0, {}, false, {}};
     Mesh mesh = source.mesh(description.notes);
     if (options.subdivide)
         mesh = subdivide(mesh).mesh;
@@ -165,15 +256,20 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
     description.convex = scene.traits().convex;
     description.delaunay = scene.traits().delaunay;
 
+    const std::unique_ptr<Frames> frames = make_frames(scene, options, description);
+    if (frames != nullptr)
+        result.gl_renderer = frames->gl_renderer();
+
     // View by view, so that the relations of each are found once; the runs are put sorter by sorter.
-    std::vector<std::vector<RunResult>> runs(candidates.size());
+    std::vector<std::vector<RunResult>> runs(candidates.size(), std::vector<RunResult>(views.size()));
     Order order;
     for (std::size_t v = 0; v < views.size(); ++v) {
         progress(fmt::format("{}: view {} of {}, relations", source.name, v + 1, views.size()));
         const Relations relations = checker.relations_at(views[v].view.eye);
+        ViewFrames view_frames;
         for (std::size_t c = 0; c < candidates.size(); ++c) {
             Candidate& candidate = candidates[c];
-            RunResult& run = runs[c].emplace_back();
+            RunResult& run = runs[c][v];
             run.scene = source.name;
             run.view = static_cast<int>(v);
             run.view_name = views[v].name;
@@ -188,7 +284,18 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
             run.violations = checked.violations;
             run.violations_in_cycles = checked.violations_in_cycles;
             description.overlapping_pairs = checked.overlapping.size();
+            if (frames != nullptr)
+                view_frames.keep(frames->draw(views[v].view, order), order, run);
         }
+        if (frames == nullptr)
+            continue;
+        progress(fmt::format("{}: view {} of {}, frames", source.name, v + 1, views.size()));
+        view_frames.draw_exact(*frames, scene, views[v].view);
+        view_frames.compare();
+        if (!options.images.empty())
+            view_frames.write(options.images);
+        if (v == 0 && view_frames.exact_order() != nullptr)
+            description.integrators = frames->integrators(views[v].view, *view_frames.exact_order());
     }
     result.scenes.push_back(std::move(description));
     for (auto& of_sorter : runs)

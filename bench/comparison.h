@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/frames.h"
 #include "scene/mesh.h"
 #include "sorting/registry.h"
 
@@ -28,6 +29,9 @@ struct ComparisonOptions {
     bool weld = false;                        ///< points of files with exactly equal coordinates
     std::string scalar;                       ///< of files; empty: the format's default
     SorterOptions sorter_options;
+    bool frames = true; ///< draw the scene in every order, where it can be drawn and has no more cells than
+    std::size_t frames_up_to = 500'000; ///< this, for what can take minutes beyond
+    std::filesystem::path images;       ///< a folder to keep frames in, of any number of cells; empty: none
 };
 
 /// A scene as the result format has it.
@@ -39,10 +43,12 @@ struct SceneResult {
     bool delaunay;
     std::size_t overlapping_pairs; ///< of cells; in no order, and in no count of relations
     std::vector<std::string> notes;
-    bool surface = false; ///< of triangles, whose boundary faces are edges
+    bool surface = false;                      ///< of triangles, whose boundary faces are edges
+    std::vector<IntegratorResult> integrators; ///< against the ray caster, from the first view; empty where none drew
 };
 
-/// One sorter on one view of one scene. Image errors are none until frames are drawn.
+/// One sorter on one view of one scene. Image errors are against the frame in an exact order; none where no frames were
+/// drawn or no such order is known.
 struct RunResult {
     std::string scene;
     int view;
@@ -69,13 +75,14 @@ struct RunResult {
 struct Comparison {
     std::vector<SceneResult> scenes;
     std::vector<RunResult> runs; ///< scene by scene, sorter by sorter, view by view
+    std::string gl_renderer;     ///< that drew frames; empty if none did
 
     bool failed() const;
 };
 
 /// Runs every sorter on every scene from every view: times it, and holds its orders against all relations. Scenes are
-/// made one after another and released. `progress` is told in a few words what is being done. Throws InputError for a
-/// file, a scene or a sorter that cannot be had.
+/// made one after another and released. Frames are drawn apart from the timed sorts. `progress` is told in a few words
+/// what is being done. Throws InputError for a file, a scene or a sorter that cannot be had.
 Comparison compare(const ComparisonOptions& options, const std::function<void(const std::string&)>& progress);
 
 } // namespace visorder

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -76,26 +77,49 @@ void fill(Image& image, const std::vector<glm::dvec2>& hull, const glm::dvec3& c
     }
 }
 
-} // namespace
-
-Image paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity)
+template <class Colour>
+Image painted(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity,
+              const Colour& colour)
 {
     Image image{view.size, {}};
     image.pixels.assign(static_cast<std::size_t>(view.size.x * view.size.y), glm::vec4(1));
     for (CellId cell : back_to_front) {
         std::vector<glm::dvec2> corners;
-        double scalar = 0;
         for (PointId p : mesh.cell(cell)) {
             const glm::dvec4 clip = view.world_to_clip * glm::dvec4(mesh.points[p], 1);
             if (clip.w <= 0)
                 break;
             corners.emplace_back((clip.x / clip.w + 1) / 2 * view.size.x, (clip.y / clip.w + 1) / 2 * view.size.y);
-            scalar += mesh.scalars.empty() ? 0.5 : static_cast<double>(mesh.scalars[p]);
         }
         if (corners.size() == mesh.cell(cell).size())
-            fill(image, hull_of(corners), colour_of(scalar / static_cast<double>(corners.size())), opacity);
+            fill(image, hull_of(corners), colour(cell), opacity);
     }
     return image;
+}
+
+} // namespace
+
+Image paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view, double opacity)
+{
+    return painted(mesh, back_to_front, view, opacity, [&](CellId cell) {
+        double scalar = 0;
+        for (PointId p : mesh.cell(cell))
+            scalar += mesh.scalars.empty() ? 0.5 : static_cast<double>(mesh.scalars[p]);
+        return colour_of(scalar / static_cast<double>(mesh.cell(cell).size()));
+    });
+}
+
+Image paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View& view,
+            std::span<const glm::dvec3> colours)
+{
+    return painted(mesh, back_to_front, view, 1, [&](CellId cell) {
+        const glm::dvec3& a = mesh.points[mesh.cell(cell)[0]];
+        const glm::dvec3 normal = glm::cross(mesh.points[mesh.cell(cell)[1]] - a, mesh.points[mesh.cell(cell)[2]] - a);
+        const glm::dvec3 towards = glm::dvec3(view.eye) - view.eye.w * a;
+        const double lengths = glm::length(normal) * glm::length(towards);
+        const double facing = lengths > 0 ? std::abs(glm::dot(normal, towards)) / lengths : 0;
+        return colours[cell] * (0.55 + 0.45 * facing);
+    });
 }
 
 Image side_by_side(std::span<const Image> pictures, int gap)

@@ -86,6 +86,17 @@ std::string traits_of(const SceneResult& scene)
     return text;
 }
 
+// What the integrators make of a scene.
+std::string integrators_of(const SceneResult& scene)
+{
+    std::string text;
+    for (const IntegratorResult& result : scene.integrators)
+        text += fmt::format("  drawn by {:<17} rmse {:.2e}, at most {:.2e} from the ray caster's; {} a frame\n",
+                            result.integrator, result.errors.root_mean_square, result.errors.largest,
+                            seconds(result.seconds));
+    return text;
+}
+
 std::string line_of(const Row& row, std::size_t cells)
 {
     const RunResult& run = *row.first;
@@ -161,6 +172,7 @@ std::string table(const Comparison& comparison, bool colour, bool statistics)
                             with_commas(scene->boundary_faces), scene->surface ? "edges" : "faces", traits_of(*scene));
             for (const std::string& note : scene->notes)
                 text += fmt::format("  ({})\n", note);
+            text += integrators_of(*scene);
         }
         const std::string line = line_of(row, scene->cells);
         text += row.failed && colour ? fmt::format("\033[31m{}   BROKEN GUARANTEE\033[0m\n", line)
@@ -180,14 +192,22 @@ std::string json(const Comparison& comparison, const Machine& machine)
         {"machine", {{"cpu", machine.cpu}, {"threads", machine.threads}, {"gl_renderer", machine.gl_renderer}}},
         {"scenes", Json::array()},
         {"runs", Json::array()}};
-    for (const SceneResult& scene : comparison.scenes)
-        document["scenes"].push_back({{"name", scene.name},
-                                      {"cells", scene.cells},
-                                      {"surface", scene.surface},
-                                      {"boundary_faces", scene.boundary_faces},
-                                      {"convex", scene.convex},
-                                      {"delaunay", scene.delaunay},
-                                      {"overlapping_pairs", scene.overlapping_pairs}});
+    for (const SceneResult& scene : comparison.scenes) {
+        Json entry{{"name", scene.name},
+                   {"cells", scene.cells},
+                   {"surface", scene.surface},
+                   {"boundary_faces", scene.boundary_faces},
+                   {"convex", scene.convex},
+                   {"delaunay", scene.delaunay},
+                   {"overlapping_pairs", scene.overlapping_pairs},
+                   {"integrators", Json::array()}};
+        for (const IntegratorResult& result : scene.integrators)
+            entry["integrators"].push_back({{"integrator", result.integrator},
+                                            {"rmse", result.errors.root_mean_square},
+                                            {"max", result.errors.largest},
+                                            {"frame_s", result.seconds}});
+        document["scenes"].push_back(std::move(entry));
+    }
     for (const RunResult& run : comparison.runs) {
         Json entry{{"scene", run.scene}, {"view", run.view}, {"view_name", run.view_name}, {"sorter", run.sorter}};
         if (!run.skipped.empty()) {

@@ -18,6 +18,10 @@ std::unique_ptr<Sorter> make_mpvo_nc(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_xmpvo(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_xmpvo_exact(const Scene&, const SorterOptions&);
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_layers(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_layers_blocked(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_layers_compute(const Scene&, const SorterOptions&);
+std::unique_ptr<Sorter> make_xmpvo_layered(const Scene&, const SorterOptions&);
 #if defined(VISORDER_WITH_VTK)
 std::unique_ptr<Sorter> make_vtk_cell_center(const Scene&, const SorterOptions&);
 #endif
@@ -38,6 +42,7 @@ constexpr std::array for_boundary_and_planes{Structure::numbering, Structure::ad
                                              Structure::face_planes, Structure::boundary};
 constexpr std::array for_boundary_relations{Structure::numbering, Structure::adjacency,   Structure::orientations,
                                             Structure::boundary,  Structure::face_planes, Structure::overlapping_cells};
+constexpr std::array for_layers{Structure::numbering};
 constexpr std::array for_auto{Structure::numbering, Structure::adjacency, Structure::orientations, Structure::boundary,
                               Structure::traits};
 #if defined(VISORDER_WITH_VTK)
@@ -71,6 +76,26 @@ constexpr std::array infos
                    "Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000", "always", for_boundary_relations},
         SorterInfo{"bsp-xmpvo", "topological sort merged with the walk of a BSP tree over the boundary faces",
                    "Comba et al. 1999; Max, Williams, Silva 2000", "always", for_boundary_relations},
+        SorterInfo{"xmpvo-layered", "mpvo, and relations between boundary cells by the layers of an image of them",
+                   "Krishnan, Silva, Wei 2002", "on convex meshes", for_boundary_and_planes},
+        SorterInfo{"layers",
+                   "layers of an image of a surface, by z-, stencil and colour buffer",
+                   "Krishnan, Silva, Wei 2002",
+                   "never: right at the image's sample points",
+                   for_layers,
+                   100'000},
+        SorterInfo{"layers-blocked",
+                   "the same, reading the image in blocks, and no block again that was empty",
+                   "Krishnan, Silva, Wei 2002",
+                   "never: right at the image's sample points",
+                   for_layers,
+                   100'000},
+        SorterInfo{"layers-compute",
+                   "the same, the image scanned by compute shaders",
+                   "Krishnan, Silva, Wei 2002",
+                   "never: right at the image's sample points",
+                   for_layers,
+                   100'000},
         SorterInfo{"auto", "the cheapest sorter that is exact for the scene, else the best there is",
                    "traits of the scene", "where the sorter it stands for is", for_auto},
 #if defined(VISORDER_WITH_VTK)
@@ -82,7 +107,8 @@ constexpr std::array infos
 constexpr std::array makers
 {
     Make{make_centroid}, Make{make_power}, Make{make_newell}, Make{make_mpvo}, Make{make_mpvo_nc}, Make{make_xmpvo},
-        Make{make_xmpvo_exact}, Make{make_bsp_xmpvo}, Make{make_auto},
+        Make{make_xmpvo_exact}, Make{make_bsp_xmpvo}, Make{make_xmpvo_layered}, Make{make_layers},
+        Make{make_layers_blocked}, Make{make_layers_compute}, Make{make_auto},
 #if defined(VISORDER_WITH_VTK)
         Make{make_vtk_cell_center},
 #endif

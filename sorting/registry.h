@@ -2,6 +2,7 @@
 
 #include "sorting/sorter.h"
 
+#include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
 #include <span>
@@ -21,6 +22,11 @@ struct SorterOptions {
     XmpvoRays xmpvo_rays = XmpvoRays::crossings;
     bool newell_windows = false; ///< `newell` keeps a list of cells for each of several windows of the image plane
     std::uint64_t bsp_seed = 1;  ///< of the samples from which `bsp-xmpvo` takes its splitting planes
+
+    // Of those that look at an image: layers, layers-blocked, layers-compute, xmpvo-layered.
+    glm::ivec2 layer_size{0}; ///< pixels of the image; 0: those of the view
+    int layer_block = 64;     ///< of `layers-blocked`: pixels of a block's side
+    std::string gl = "auto";  ///< where OpenGL comes from: auto, egl or osmesa
 };
 
 /// What there is to know of a sorter before making one.
@@ -37,7 +43,8 @@ struct SorterInfo {
 std::span<const SorterInfo> sorters();
 
 /// Makes a sorter for a scene, which must outlive it. Throws InputError for an unknown name (the known ones are listed)
-/// and for a scene that the sorter cannot take (the reason is given).
+/// and for a scene that the sorter cannot take (the reason is given), and GraphicsError (graphics/graphics_error.h)
+/// where a sorter needs OpenGL and there is none.
 std::unique_ptr<Sorter> make_sorter(std::string_view name, const Scene& scene, const SorterOptions& options = {});
 
 /// The sorter that `auto` stands for on a scene, and why.

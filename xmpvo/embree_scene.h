@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sorting/face_pairs.h"
 #include "xmpvo/boundary_surface.h"
 #include "xmpvo/ray_set.h"
 
@@ -15,12 +16,6 @@ struct RTCDeviceTy;
 struct RTCSceneTy;
 
 namespace visorder {
-
-/// A face that a ray meets, and how far along it.
-struct RayHit {
-    float distance;
-    std::uint32_t face;
-};
 
 /// A boundary in Embree (Wald et al. 2014), to be shot at: single precision, watertight between faces that share edges.
 /// Owns an Embree device of its own, for as long as it lives; what Embree reports as an error becomes an exception

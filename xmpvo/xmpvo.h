@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/face_planes.h"
+#include "sorting/face_pairs.h"
 #include "sorting/registry.h"
 #include "sorting/relation.h"
 #include "sorting/topological_sort.h"
@@ -39,7 +40,6 @@ public:
 
 private:
     void shoot(const glm::dvec4& eye);
-    void confirm(const glm::dvec4& eye);
 
     const Scene& scene_;
     XmpvoRays rays_;

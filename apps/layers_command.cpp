@@ -1,0 +1,275 @@
+#include "apps/commands.h"
+#include "apps/image_size.h"
+#include "apps/progress.h"
+#include "apps/scene_source.h"
+#include "bench/image_file.h"
+#include "bench/layer_truth.h"
+#include "bench/painting.h"
+#include "layering/layers_sorter.h"
+#include "scene/error.h"
+#include "scene/face_loop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <memory>
+#include <numbers>
+
+namespace visorder {
+
+namespace {
+
+struct Arguments {
+    std::shared_ptr<SceneSource> source;
+    std::vector<std::string> sizes{"256x256", "512x512"};
+    int frames = 30;
+    int block = 64;
+    std::string gl = "auto";
+    std::string folder;
+    bool check = false;
+};
+
+struct Variant {
+    const char* name;
+    LayerVariant variant;
+};
+constexpr std::array variants{Variant{"layers", LayerVariant::naive}, Variant{"layers-blocked", LayerVariant::blocked},
+                              Variant{"layers-compute", LayerVariant::compute}};
+
+// The mesh itself if it is a surface, else its boundary.
+Mesh surface_of(Mesh mesh)
+{
+    if (mesh.shapes.empty() || mesh.shapes.front() == CellShape::triangle)
+        return mesh;
+    const Scene scene(std::move(mesh));
+    Mesh surface;
+    surface.points = scene.mesh().points;
+    for (const CellFace& face : scene.boundary().faces) {
+        const FaceLoop loop = boundary_loop(scene.mesh(), face);
+        for (int i = 2; i < loop.count; ++i)
+            surface.add(CellShape::triangle, std::array{loop.begin()[0], loop.begin()[i - 1], loop.begin()[i]});
+    }
+    return surface;
+}
+
+std::size_t used_points(const Mesh& mesh)
+{
+    std::vector<std::uint32_t> used = mesh.vertices;
+    std::sort(used.begin(), used.end());
+    return static_cast<std::size_t>(std::unique(used.begin(), used.end()) - used.begin());
+}
+
+// Once around the scene, a little from above.
+View frame_view(const Scene& scene, double turns, glm::ivec2 size)
+{
+    const glm::dvec3 middle = scene.bounds().middle();
+    const double half = glm::length(scene.bounds().max * 0.5 - scene.bounds().min * 0.5);
+    const double radius = half > 0 ? half : 1;
+    const double angle = 2 * std::numbers::pi * turns;
+    const glm::dvec3 direction = glm::normalize(glm::dvec3(std::sin(angle), 0.35, std::cos(angle)));
+    return look_at(middle + 4.2 * radius * direction, middle, radius, 27, size);
+}
+
+struct Frames {
+    LayerWork work; // of all frames
+    double layers = 0;
+    double unproven = 0;
+    std::vector<Layers> of_frames;
+};
+
+Frames run_frames(const Scene& scene, LayersSorter& sorter, glm::ivec2 size, int count)
+{
+    Frames frames;
+    Order order;
+    sorter.sort(frame_view(scene, 0, size), order); // warms the renderer and the caches
+    for (int i = 0; i < count; ++i) {
+        sorter.sort(frame_view(scene, static_cast<double>(i) / count, size), order);
+        const LayerWork& work = sorter.work();
+        frames.work.rendering_s += work.rendering_s;
+        frames.work.reading_s += work.reading_s;
+        frames.work.scanning_s += work.scanning_s;
+        frames.work.rest_s += work.rest_s;
+        frames.work.passes += work.passes;
+        frames.work.pixels_read += work.pixels_read;
+        frames.work.flags_read += work.flags_read;
+        frames.work.fragments_read += work.fragments_read;
+        frames.layers += sorter.layers().count;
+        frames.unproven += static_cast<double>(sorter.layers().unproven.size());
+        frames.of_frames.push_back(sorter.layers());
+    }
+    return frames;
+}
+
+bool same(const Layers& a, const Layers& b)
+{
+    return a.layer == b.layer && a.cycles == b.cycles && a.unproven.size() == b.unproven.size();
+}
+
+// Holds the frames of one variant on one platform against the truth; the others must be equal to it.
+bool check_frames(const Scene& scene, const Mesh& mesh, const Arguments& arguments, glm::ivec2 size, Progress& progress)
+{
+    std::vector<Layers> expected;
+    bool right = true;
+    for (const GlPlatform platform : {GlPlatform::egl, GlPlatform::osmesa})
+        for (const Variant& variant : variants)
+            for (const int block : {32, 64, 128}) {
+                if (variant.variant != LayerVariant::blocked && block != 64)
+                    continue;
+                progress.show(fmt::format("{} x {}, {} on {}", size.x, size.y, variant.name, name(platform)));
+                LayersSorter sorter(scene, variant.variant, platform, size, block);
+                Frames frames = run_frames(scene, sorter, size, arguments.frames);
+                if (expected.empty())
+                    expected = std::move(frames.of_frames);
+                else if (!std::equal(expected.begin(), expected.end(), frames.of_frames.begin(), same)) {
+                    fmt::print("  {} x {}: {} on {} gives other layers, with blocks of {}\n", size.x, size.y,
+                               variant.name, name(platform), block);
+                    right = false;
+                }
+            }
+    LayerCheck sum;
+    for (int i = 0; i < arguments.frames; ++i) {
+        progress.show(fmt::format("{} x {}, truth of frame {}", size.x, size.y, i + 1));
+        const LayerCheck check = check_layers(mesh, frame_view(scene, static_cast<double>(i) / arguments.frames, size),
+                                              size, expected[static_cast<std::size_t>(i)]);
+        sum.samples += check.samples;
+        sum.fragments += check.fragments;
+        sum.pairs += check.pairs;
+        sum.ties += check.ties;
+        sum.in_cycles += check.in_cycles;
+        sum.wrong += check.wrong;
+        sum.missed += check.missed;
+        for (const std::string& witness : check.witnesses)
+            fmt::print("  frame {}: {}\n", i + 1, witness);
+    }
+    fmt::print("  {} x {}: {} pairs at {} sample points, {} wrong, {} missed; not compared: {} in cycles, {} ties\n",
+               size.x, size.y, sum.pairs, sum.samples, sum.wrong, sum.missed, sum.in_cycles, sum.ties);
+    return right && sum.wrong == 0 && sum.missed == 0;
+}
+
+// Hues as far apart as can be from one to the next; grey where there is no proof.
+std::vector<glm::dvec3> colours_of(const Layers& layers)
+{
+    std::vector<glm::dvec3> colours(layers.layer.size(), glm::dvec3(0.6));
+    for (std::size_t item = 0; item < colours.size(); ++item)
+        if (layers.layer[item] != 0) {
+            const double hue = std::fmod(0.02 + 0.618034 * (layers.layer[item] - 1), 1.0);
+            for (int k = 0; k < 3; ++k)
+                colours[item][k] =
+                    0.92 - 0.6 * std::clamp(2 - std::abs(std::fmod(6 * hue + 5 - 2 * k, 6.0) - 3), 0.0, 1.0);
+        }
+    for (const Layers::Unproven& unproven : layers.unproven)
+        colours[unproven.item] = glm::dvec3(0.6);
+    return colours;
+}
+
+// All layers in colour from the view and turned around, and each layer alone (the paper's Fig. 3).
+int write_pictures(const Scene& scene, const Mesh& mesh, LayersSorter& sorter, glm::ivec2 size,
+                   const std::filesystem::path& folder)
+{
+    std::filesystem::create_directories(folder);
+    Order order, turned;
+    const View view = frame_view(scene, 0.08, size), from_behind = frame_view(scene, 0.58, size);
+    sorter.sort(from_behind, turned);
+    sorter.sort(view, order);
+    const Layers layers = sorter.layers();
+    const std::vector<glm::dvec3> colours = colours_of(layers);
+    const PngStyle as_they_are{.to_srgb = false};
+    write_png(paint(mesh, order.back_to_front, view, colours), folder / "layers.png", as_they_are);
+    write_png(paint(mesh, turned.back_to_front, from_behind, colours), folder / "turned.png", as_they_are);
+    for (std::uint32_t layer = 1; layer <= layers.count; ++layer) {
+        std::vector<CellId> alone;
+        std::copy_if(order.back_to_front.begin(), order.back_to_front.end(), std::back_inserter(alone),
+                     [&](CellId cell) { return layers.layer[cell] == layer; });
+        write_png(paint(mesh, alone, view, colours), folder / fmt::format("layer-{:03}.png", layer), as_they_are);
+    }
+    return static_cast<int>(layers.count);
+}
+
+int run(const Arguments& arguments)
+{
+    std::vector<glm::ivec2> sizes;
+    for (const std::string& text : arguments.sizes)
+        sizes.push_back(image_size(text, "--size"));
+    const GlPlatform platform = gl_platform(arguments.gl);
+    SourcedMesh sourced = load(*arguments.source);
+    const Mesh mesh = surface_of(std::move(sourced.mesh));
+    const Scene scene(mesh);
+
+    Progress progress;
+    std::string depths, work;
+    std::string renderer;
+    for (const glm::ivec2 size : sizes)
+        for (const Variant& variant : variants) {
+            progress.show(fmt::format("{} x {}, {}", size.x, size.y, variant.name));
+            LayersSorter sorter(scene, variant.variant, platform, size, arguments.block);
+            const Frames frames = run_frames(scene, sorter, size, arguments.frames);
+            renderer = sorter.context().renderer();
+            const double count = arguments.frames;
+            if (variant.variant == LayerVariant::naive)
+                depths += fmt::format(" {:>15}",
+                                      fmt::format("{:.1f} ({:.0f})", frames.layers / count, frames.unproven / count));
+            const double total = frames.work.total_s();
+            work += fmt::format(
+                "{:>11}  {:<14} {:>9.2f} {:>9.1f} {:>8.1f} {:>9.1f} {:>6.1f} {:>8.1f} {:>11.0f} {:>8.0f} "
+                "{:>10.0f}\n",
+                fmt::format("{}x{}", size.x, size.y), variant.name, 1e3 * total / count,
+                100 * frames.work.rendering_s / total, 100 * frames.work.reading_s / total,
+                100 * frames.work.scanning_s / total, 100 * frames.work.rest_s / total,
+                static_cast<double>(frames.work.passes) / count, static_cast<double>(frames.work.pixels_read) / count,
+                static_cast<double>(frames.work.flags_read) / count,
+                static_cast<double>(frames.work.fragments_read) / count);
+        }
+    progress.show("pictures");
+    LayersSorter sorter(scene, LayerVariant::blocked, platform, sizes.back(), arguments.block);
+    const int pictures = write_pictures(scene, mesh, sorter, sizes.back(), arguments.folder);
+
+    std::string header;
+    for (const glm::ivec2 size : sizes)
+        header += fmt::format(" {:>15}", fmt::format("{}x{}", size.x, size.y));
+    fmt::print("{}; means over {} frames once around; blocks of {} pixels\n\n", renderer, arguments.frames,
+               arguments.block);
+    fmt::print("{:<24} {:>9} {:>10} {}\n{:<24} {:>9} {:>10} {}\n\n", "depth (without proof)", "vertices", "triangles",
+               header, sourced.name, used_points(mesh), mesh.cell_count(), depths);
+    fmt::print("{:>11}  {:<14} {:>9} {:>9} {:>8} {:>9} {:>6} {:>8} {:>11} {:>8} {:>10}\n{}\n", "image", "variant",
+               "ms/frame", "render %", "read %", "scan %", "rest %", "passes", "pixels read", "flags", "fragments",
+               work);
+    fmt::print("{}: layers.png, turned.png and {} layers alone\n", arguments.folder, pictures);
+    if (!arguments.check)
+        return exit_success;
+    fmt::print("\nagainst depths in double precision, all variants on EGL and OSMesa:\n");
+    bool right = true;
+    for (const glm::ivec2 size : sizes)
+        right = check_frames(scene, mesh, arguments, size, progress) && right;
+    return right ? exit_success : exit_wrong;
+}
+
+} // namespace
+
+void add_layers_command(CLI::App& app, Command& chosen)
+{
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand(
+        "layers", "Extract the layers of a surface, or of a boundary: what it costs, how deep it is, and pictures");
+    arguments->source = add_scene_source(*command);
+    command->add_option("--size", arguments->sizes, "Pixels of the images, WxH,WxH,... (default: 256x256,512x512)")
+        ->delimiter(',');
+    command->add_option("--frames", arguments->frames, "Views, once around the model")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--block", arguments->block, "Pixels of a block's side")
+        ->capture_default_str()
+        ->check(CLI::IsMember({32, 64, 128}));
+    command->add_option("--gl", arguments->gl, "Where OpenGL comes from")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "egl", "osmesa"}));
+    command->add_flag("--check", arguments->check,
+                      "Also hold every sample point against depths computed in double precision; exit code 1 if wrong");
+    command->add_option("-o,--output", arguments->folder, "The folder of the pictures")->required();
+    command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+} // namespace visorder

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "checking/image_errors.h"
+#include "graphics/context.h"
+#include "projection/renderer.h"
+#include "projection/transfer_function.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+#include "scene/view.h"
+#include "sorting/sorter.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace visorder {
+
+/// What one integrator makes of a scene, against the reference ray caster.
+struct IntegratorResult {
+    const char* integrator;
+    ImageErrors errors; ///< away from silhouettes
+    double seconds;     ///< a frame, of a sorted scene
+};
+
+/// Frames of one scene, drawn in whatever order, to see what an order does to the picture. The medium is the named
+/// transfer function "rainbow" over the scene's scalars, in which order shows: all of it is translucent, and near
+/// colours differ from far ones.
+///
+/// One thread at a time.
+class Frames {
+public:
+    /// Throws InputError for a scene that cannot be drawn, saying why, and GraphicsError where there is no OpenGL.
+    Frames(const Scene& scene, GlPlatform platform);
+
+    const std::string& gl_renderer() const { return context_.renderer(); }
+
+    Image draw(const View& view, const Order& order);
+
+    /// The errors and times of all integrators, in an order that is right.
+    std::vector<IntegratorResult> integrators(const View& view, const Order& order);
+
+private:
+    const Scene& scene_;
+    Context context_;
+    TransferFunction medium_;
+    std::unique_ptr<ProjectionRenderer> renderer_;
+};
+
+} // namespace visorder
