@@ -1,0 +1,402 @@
+#include "projection/renderer.h"
+
+#include "bench/generated_scene.h"
+#include "bench/views.h"
+#include "checking/image_errors.h"
+#include "checking/ray_caster.h"
+#include "graphics/context.h"
+#include "scene/error.h"
+#include "scene/subdivision.h"
+#include "sorting/registry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace visorder {
+namespace {
+
+using testing::HasSubstr;
+
+const Context& context()
+{
+    static const Context only;
+    return only;
+}
+
+Scene& scene_of(const char* specification)
+{
+    static std::map<std::string, std::unique_ptr<Scene>> scenes;
+    auto& scene = scenes[specification];
+    if (!scene)
+        scene = std::make_unique<Scene>(subdivide(generate(specification)).mesh);
+    return *scene;
+}
+
+TransferFunction function_for(const Scene& scene, const char* name)
+{
+    const auto [low, high] = std::minmax_element(scene.mesh().scalars.begin(), scene.mesh().scalars.end());
+    return named_transfer_function(name, *low, *high, glm::length(scene.bounds().max - scene.bounds().min) / 10);
+}
+
+Order order_for(const Scene& scene, const View& view)
+{
+    Order order;
+    make_sorter("auto", scene)->sort(view, order);
+    return order;
+}
+
+RenderOptions with(Projector projector, Integrator integrator)
+{
+    RenderOptions options;
+    options.projector = projector;
+    options.integrator = integrator;
+    return options;
+}
+
+std::string reproduce(const char* scene, const NamedView& view, const RenderOptions& options)
+{
+    return std::string(scene) + " seen from " + view.name + " by " + name(options.projector) + " and " +
+           name(options.integrator);
+}
+
+View inside(const Scene& scene, double view_angle, glm::ivec2 size)
+{
+    const auto v = scene.mesh().cell(scene.cell_count() / 2);
+    glm::dvec3 eye(0);
+    for (const PointId p : v)
+        eye += 0.25 * scene.mesh().points[p];
+    const double radius = glm::length(scene.bounds().max - scene.bounds().min) / 2;
+    return look_at(eye, eye + glm::dvec3(0.3, 0.2, 1) * radius, radius, view_angle, size);
+}
+
+// The way of the ray through a place of the image through all cells, by clipping it at the planes of each.
+double way_through(const Scene& scene, const View& view, double x, double y)
+{
+    const glm::dmat4 to_world = glm::inverse(view.world_to_clip);
+    const auto at = [&](double z) {
+        const glm::dvec4 p = to_world * glm::dvec4(2 * x / view.size.x - 1, 2 * y / view.size.y - 1, z, 1);
+        return glm::dvec3(p) / p.w;
+    };
+    const glm::dvec3 origin = view.eye.w != 0 ? glm::dvec3(view.eye) / view.eye.w : at(-1);
+    const glm::dvec3 along = glm::normalize(at(1) - at(-1));
+    double sum = 0;
+    for (CellId cell = 0; cell < scene.cell_count(); ++cell) {
+        const auto v = scene.mesh().cell(cell);
+        const auto& points = scene.mesh().points;
+        double first = view.eye.w != 0 ? 0 : -std::numeric_limits<double>::infinity();
+        double last = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < 4 && first < last; ++i) {
+            const glm::dvec3& a = points[v[(i + 1) % 4]];
+            glm::dvec3 normal = glm::cross(points[v[(i + 2) % 4]] - a, points[v[(i + 3) % 4]] - a);
+            if (glm::dot(normal, points[v[i]] - a) > 0)
+                normal = -normal;
+            const double height = glm::dot(normal, origin - a);
+            const double slope = glm::dot(normal, along);
+            if (slope > 0)
+                last = std::min(last, -height / slope);
+            else if (slope < 0)
+                first = std::max(first, -height / slope);
+            else if (height > 0)
+                last = first;
+        }
+        sum += std::max(last - first, 0.0);
+    }
+    return sum;
+}
+
+// Pixels at which the way jumps, or bends as much as a corner does, within what the rasteriser rounds by.
+struct Way {
+    double length;
+    bool steady;
+};
+
+Way steady_way(const Scene& scene, const View& view, int x, int y, double unit)
+{
+    constexpr double nudge = 1.0 / 128;
+    const double length = way_through(scene, view, x + 0.5, y + 0.5);
+    double change = 0;
+    for (const glm::dvec2 to : {glm::dvec2(nudge, 0), glm::dvec2(-nudge, 0), glm::dvec2(0, nudge), glm::dvec2(0, -nudge)})
+        change = std::max(change, std::abs(way_through(scene, view, x + 0.5 + to.x, y + 0.5 + to.y) - length));
+    return {length, change < 2e-3 * unit};
+}
+
+RayCast truth(const Scene& scene, const TransferFunction& function, const View& view)
+{
+    std::vector<MediumPoint> medium;
+    for (const OpticalPoint& p : function.points())
+        medium.push_back({p.scalar, p.extinction, p.colour});
+    RayCastOptions options;
+    options.silhouette_margin = 0.25;
+    return cast_rays(scene, medium, view, options);
+}
+
+TEST(Renderer, HasNoCracksAndNoDoubleHits)
+{
+    constexpr int side = 24;
+    for (const char* scene_name : {"carved:700", "slivers:400", "grid:400", "reactor:600"})
+        for (const Projector projector : projectors()) {
+            const Scene& scene = scene_of(scene_name);
+            const double unit = glm::length(scene.bounds().max - scene.bounds().min) / 10;
+            const double extinction = extinction_of(0.3, unit);
+            const TransferFunction function({{0, extinction, glm::dvec3(0.5)}});
+            const RenderOptions options = with(projector, Integrator::exact);
+            ProjectionRenderer renderer(context(), scene, function, options);
+            std::vector<NamedView> views = random_views(scene, 3, 5, glm::ivec2(side));
+            views.push_back({"inside", inside(scene, 80, glm::ivec2(side))});
+            int beyond = 0;
+            int pixels = 0;
+            for (const NamedView& view : views) {
+                SCOPED_TRACE(reproduce(scene_name, view, options));
+                const Image image = renderer.draw(view.view, order_for(scene, view.view));
+                for (int y = 0; y < side; ++y)
+                    for (int x = 0; x < side; ++x) {
+                        const Way way = steady_way(scene, view.view, x, y, unit);
+                        if (!way.steady)
+                            continue;
+                        ++pixels;
+                        const double opacity = -std::expm1(-extinction * way.length);
+                        const double difference = std::abs(image.pixels[image.index(x, y)].w - opacity);
+                        beyond += difference > 1e-4 ? 1 : 0;
+                        // Where the rasteriser attributes a pixel to the wrong side of a crease, Projector::thick
+                        // prolongs a face, by as much as the face is steep.
+                        EXPECT_LT(difference, projector == Projector::thick ? 2e-2 : 2e-3) << x << ", " << y;
+                    }
+            }
+            EXPECT_LE(beyond, projector == Projector::thick ? pixels / 50 : pixels / 500);
+        }
+}
+
+TEST(Renderer, ExactIntegrationMatchesTheRayCaster)
+{
+    constexpr glm::ivec2 size(96);
+    for (const char* scene_name : {"fin:3000", "carved:3000"})
+        for (const Projector projector : projectors())
+            for (const char* function_name : {"cool-warm", "narrow-peak", "steps"}) {
+                const Scene& scene = scene_of(scene_name);
+                const TransferFunction function = function_for(scene, function_name);
+                const RenderOptions options = with(projector, Integrator::exact);
+                ProjectionRenderer renderer(context(), scene, function, options);
+                std::vector<NamedView> views = random_views(scene, 2, 11, size);
+                views.push_back({"inside", inside(scene, 100, size)});
+                for (const NamedView& view : views) {
+                    SCOPED_TRACE(reproduce(scene_name, view, options) + ", " + function_name);
+                    const Image image = renderer.draw(view.view, order_for(scene, view.view));
+                    const RayCast cast = truth(scene, function, view.view);
+                    const ImageErrors errors = image_errors(image, image_of(cast), cast.near_silhouette);
+                    EXPECT_LT(errors.root_mean_square, projector == Projector::thick ? 1e-3 : 2e-4);
+                    EXPECT_LT(errors.largest, projector == Projector::thick ? 3e-2 : 1e-2);
+                }
+            }
+}
+
+TEST(Renderer, IntegratorsComeNearerToTheRayCasterOneByOne)
+{
+    const Scene& scene = scene_of("fin:3000");
+    const TransferFunction function = function_for(scene, "narrow-peak");
+    for (const Projector projector : {Projector::silhouette, Projector::thick})
+        for (const NamedView& view : random_views(scene, 2, 3, glm::ivec2(96))) {
+            const RayCast cast = truth(scene, function, view.view);
+            double before = std::numeric_limits<double>::infinity();
+            for (const Integrator integrator :
+                 {Integrator::linear, Integrator::exponential, Integrator::preintegrated_3d, Integrator::exact}) {
+                const RenderOptions options = with(projector, integrator);
+                SCOPED_TRACE(reproduce("fin:3000", view, options));
+                ProjectionRenderer renderer(context(), scene, function, options);
+                const Image image = renderer.draw(view.view, order_for(scene, view.view));
+                const double error = image_errors(image, image_of(cast), cast.near_silhouette).root_mean_square;
+                EXPECT_LT(error, before);
+                before = error;
+            }
+        }
+}
+
+TEST(Renderer, EveryIntegratorIsRightWhereAllIsConstant)
+{
+    const Scene& scene = scene_of("grid:400");
+    const TransferFunction function = function_for(scene, "constant");
+    for (const Projector projector : projectors())
+        for (const Integrator integrator : integrators()) {
+            // Neither of these has opacity that depends on length as it should.
+            if (integrator == Integrator::linear || integrator == Integrator::preintegrated_2d)
+                continue;
+            const NamedView view = random_views(scene, 1, 2, glm::ivec2(64)).front();
+            const RenderOptions options = with(projector, integrator);
+            SCOPED_TRACE(reproduce("grid:400", view, options));
+            ProjectionRenderer renderer(context(), scene, function, options);
+            const Image image = renderer.draw(view.view, order_for(scene, view.view));
+            const RayCast cast = truth(scene, function, view.view);
+            EXPECT_LT(image_errors(image, image_of(cast), cast.near_silhouette).root_mean_square, 1e-4);
+        }
+}
+
+TEST(Renderer, SetsAnotherTransferFunctionWithoutSorting)
+{
+    const Scene& scene = scene_of("carved:700");
+    const NamedView view = random_views(scene, 1, 4, glm::ivec2(48)).front();
+    const Order order = order_for(scene, view.view);
+    for (const Integrator integrator : integrators()) {
+        const RenderOptions options = with(Projector::silhouette, integrator);
+        ProjectionRenderer changed(context(), scene, function_for(scene, "rainbow"), options);
+        changed.draw(view.view, order);
+        changed.set_transfer_function(function_for(scene, "viridis"));
+        ProjectionRenderer fresh(context(), scene, function_for(scene, "viridis"), options);
+        EXPECT_EQ(image_errors(changed.draw(view.view, order), fresh.draw(view.view, order)).largest, 0)
+            << name(integrator);
+    }
+}
+
+TEST(Renderer, ShowsAWrongOrder)
+{
+    const Scene& scene = scene_of("carved:3000");
+    const NamedView view = random_views(scene, 1, 4, glm::ivec2(64)).front();
+    ProjectionRenderer renderer(context(), scene, function_for(scene, "steps"));
+    Order order = order_for(scene, view.view);
+    const Image right = renderer.draw(view.view, order);
+    EXPECT_EQ(image_errors(renderer.draw(view.view, order), right).largest, 0);
+    std::reverse(order.back_to_front.begin(), order.back_to_front.end());
+    EXPECT_GT(image_errors(renderer.draw(view.view, order), right).root_mean_square, 1e-3);
+}
+
+TEST(Renderer, LeaksNothingAndDrawsInAnySize)
+{
+    const Scene& scene = scene_of("carved:700");
+    const std::size_t before = context().live_objects();
+    {
+        ProjectionRenderer renderer(context(), scene, function_for(scene, "cool-warm"));
+        const NamedView view = random_views(scene, 1, 4, glm::ivec2(33, 20)).front();
+        const Order order = order_for(scene, view.view);
+        renderer.draw(view.view, order);
+        const std::size_t one_frame = context().live_objects();
+        for (int i = 1; i < 50; ++i) {
+            View other = view.view;
+            other.size = {1 + i, 50 - i};
+            const Image image = renderer.draw(other, order);
+            EXPECT_EQ(image.size, other.size);
+            renderer.set_transfer_function(function_for(scene, "rainbow"));
+        }
+        EXPECT_EQ(context().live_objects(), one_frame);
+    }
+    EXPECT_EQ(context().live_objects(), before);
+}
+
+TEST(Renderer, BothPlatformsDrawTheSame)
+{
+    const Context osmesa(GlPlatform::osmesa);
+    if (context().renderer() != osmesa.renderer())
+        GTEST_SKIP() << "one of them is " << context().renderer() << ", the other " << osmesa.renderer();
+    const Scene& scene = scene_of("carved:3000");
+    const NamedView view = random_views(scene, 1, 9, glm::ivec2(64)).front();
+    const Order order = order_for(scene, view.view);
+    for (const Projector projector : projectors()) {
+        const RenderOptions options = with(projector, Integrator::exact);
+        ProjectionRenderer a(context(), scene, function_for(scene, "cool-warm"), options);
+        ProjectionRenderer b(osmesa, scene, function_for(scene, "cool-warm"), options);
+        EXPECT_LT(image_errors(a.draw(view.view, order), b.draw(view.view, order)).largest, 1e-6);
+    }
+}
+
+TEST(Renderer, BlendsInFewerBitsOnRequest)
+{
+    const Scene& scene = scene_of("carved:700");
+    const NamedView view = random_views(scene, 1, 9, glm::ivec2(48)).front();
+    const Order order = order_for(scene, view.view);
+    const TransferFunction function = function_for(scene, "cool-warm");
+    const Image best = ProjectionRenderer(context(), scene, function).draw(view.view, order);
+    double before = 0;
+    for (const int bits : {16, 8}) {
+        RenderOptions options;
+        options.blending_bits = bits;
+        const double error =
+            image_errors(ProjectionRenderer(context(), scene, function, options).draw(view.view, order), best)
+                .root_mean_square;
+        EXPECT_GT(error, before);
+        before = error;
+    }
+    EXPECT_LT(before, 0.05);
+}
+
+TEST(Renderer, FlatAndTurnedCellsChangeNothing)
+{
+    Mesh mesh = subdivide(generate("grid:400")).mesh;
+    const TransferFunction function({{0, 0.3, glm::dvec3(1, 0.5, 0.25)}, {1, 2, glm::dvec3(0.1, 0.5, 1)}});
+    const Scene straight(mesh);
+    const NamedView view = random_views(straight, 1, 9, glm::ivec2(48)).front();
+    const Image wanted = ProjectionRenderer(context(), straight, function).draw(view.view, order_for(straight, view.view));
+    for (CellId cell = 0; cell < mesh.cell_count(); cell += 3)
+        std::swap(mesh.vertices[mesh.offsets[cell]], mesh.vertices[mesh.offsets[cell] + 1]);
+    const Scene turned(mesh);
+    EXPECT_LT(image_errors(ProjectionRenderer(context(), turned, function).draw(view.view, order_for(turned, view.view)),
+                           wanted)
+                  .largest,
+              1e-5);
+    mesh.add(CellShape::tetrahedron, std::array<std::uint32_t, 4>{0, 0, 1, 2});
+    const Scene flat(mesh);
+    EXPECT_LT(
+        image_errors(ProjectionRenderer(context(), flat, function).draw(view.view, order_for(flat, view.view)), wanted)
+            .largest,
+        1e-5);
+}
+
+void expect_refused(const std::function<void()>& what, const char* words)
+{
+    try {
+        what();
+        ADD_FAILURE() << "was taken, not refused with: " << words;
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr(words));
+    }
+}
+
+TEST(Renderer, RefusesWhatItCannotDraw)
+{
+    const TransferFunction function({{0, 1, glm::dvec3(1)}});
+    const auto make = [&](const Mesh& mesh) {
+        const Scene scene(mesh);
+        const ProjectionRenderer renderer(context(), scene, function);
+    };
+    expect_refused([&] { make(generate("grid:400")); }, "subdivide");
+    Mesh mesh = subdivide(generate("grid:400")).mesh;
+    mesh.scalars[7] = std::numeric_limits<float>::quiet_NaN();
+    expect_refused([&] { make(mesh); }, "point 7");
+    mesh.scalars.clear();
+    expect_refused([&] { make(mesh); }, "no scalars");
+
+    const Scene& scene = scene_of("grid:400");
+    RenderOptions options;
+    options.blending_bits = 12;
+    expect_refused([&] { const ProjectionRenderer r(context(), scene, function, options); }, "12 bits");
+    expect_refused([&] { const ProjectionRenderer r(context(), scene, function,
+                                                    with(Projector::planes, Integrator::linear)); },
+                   "thickest");
+    options = with(Projector::silhouette, Integrator::preintegrated_3d);
+    options.tables.scalars = 1;
+    expect_refused([&] { const ProjectionRenderer r(context(), scene, function, options); }, "table of 1");
+    expect_refused([] { integrator_named("guess"); }, "guess");
+    expect_refused([] { projector_named("guess"); }, "guess");
+
+    ProjectionRenderer renderer(context(), scene, function);
+    View view = random_views(scene, 1, 1, glm::ivec2(16)).front().view;
+    Order order = order_for(scene, view);
+    for (const glm::ivec2 size : {glm::ivec2(0, 16), glm::ivec2(16, -1), glm::ivec2(1 << 20, 16)}) {
+        view.size = size;
+        expect_refused([&] { renderer.draw(view, order); }, std::to_string(size.x).c_str());
+    }
+    view.size = {16, 16};
+    order.back_to_front[3] = scene.cell_count();
+    expect_refused([&] { renderer.draw(view, order); }, "the order lists cell");
+    order.back_to_front.pop_back();
+    expect_refused([&] { renderer.draw(view, order); }, "the order lists");
+}
+
+} // namespace
+} // namespace visorder
