@@ -24,7 +24,7 @@ public:
     {
         items_ = &items;
         work_ = &work;
-        state_.assign(items.item_count(), State::other);
+        state_.assign(items.item_count() + std::size_t{1}, State::other);
         touched_.clear();
         nearest_.resize(items.whole().pixel_count());
         farthest_.resize(nearest_.size());
@@ -41,7 +41,7 @@ public:
     void find_candidates(std::vector<std::uint32_t>& candidates) override
     {
         for (std::uint32_t item : touched_)
-            state_[item] = State::other;
+            state_[item + 1] = State::other;
         candidates.clear();
         Stopwatch watch;
         for (Block& block : blocks_)
@@ -49,12 +49,12 @@ public:
         read([&](const PixelRectangle& run) { items_->read_nearest(run, size().x, nearest_.data()); });
         work_->reading_s += watch.lap();
         for (Block& block : blocks_)
-            block.again = take_candidates(block.pixels, candidates);
+            block.again = mark_candidates(block.pixels);
         if (block_ > 0) {
             std::erase_if(blocks_, [](const Block& block) { return !block.again; });
             alive_ = bounds();
         }
-        std::sort(candidates.begin(), candidates.end());
+        list(State::candidate, candidates);
         touched_ = candidates;
         first_pass_ = true;
         work_->scanning_s += watch.lap();
@@ -74,14 +74,17 @@ public:
         work_->reading_s += watch.lap();
 
         Outcome outcome;
-        const std::size_t covered_before = covered.size();
+        any_covered_ = false;
         for (Block& block : blocks_) {
-            block.again = block.again && take_covered(block.pixels, covered, outcome);
+            block.again = block.again && mark_covered(block.pixels, outcome);
             outcome.again = outcome.again || block.again;
         }
-        std::sort(covered.begin() + static_cast<std::ptrdiff_t>(covered_before), covered.end());
-        for (std::size_t i = covered_before; i < covered.size(); ++i)
-            state_[covered[i]] = State::other;
+        if (any_covered_) {
+            const std::size_t covered_before = covered.size();
+            list(State::just_covered, covered);
+            for (std::size_t i = covered_before; i < covered.size(); ++i)
+                state_[covered[i] + 1] = State::other;
+        }
         first_pass_ = false;
         work_->scanning_s += watch.lap();
         return outcome;
@@ -136,26 +139,34 @@ private:
         }
     }
 
-    bool take_candidates(const PixelRectangle& pixels, std::vector<std::uint32_t>& candidates)
+    // Marks the items shown; what shows none marks place 0.
+    bool mark_candidates(const PixelRectangle& pixels)
     {
-        bool any = false;
-        std::uint32_t last = 0;
+        std::uint32_t any = 0;
         for_rows(pixels, [&](std::size_t i, std::size_t end) {
             for (; i < end; ++i) {
-                const std::uint32_t shown = nearest_[i];
-                if (shown == last)
-                    continue;
-                last = shown;
-                if (shown == 0)
-                    continue;
-                any = true;
-                if (state_[shown - 1] == State::other) {
-                    state_[shown - 1] = State::candidate;
-                    candidates.push_back(shown - 1);
-                }
+                any |= nearest_[i];
+                state_[nearest_[i]] = State::candidate;
             }
         });
-        return any;
+        return any != 0;
+    }
+
+    // Appends the items with a state, ascending.
+    void list(State state, std::vector<std::uint32_t>& items) const
+    {
+        std::size_t place = 1;
+        while (place < state_.size()) {
+            std::uint64_t eight = 0;
+            if (place + 8 <= state_.size())
+                std::memcpy(&eight, &state_[place], sizeof(eight));
+            const std::size_t end = std::min(place + 8, state_.size());
+            if (eight != 0 || end < place + 8)
+                for (std::size_t i = place; i < end; ++i)
+                    if (state_[i] == state)
+                        items.push_back(static_cast<std::uint32_t>(i - 1));
+            place = end;
+        }
     }
 
     bool has_several(const PixelRectangle& pixels) const
@@ -170,7 +181,7 @@ private:
         return several;
     }
 
-    bool take_covered(const PixelRectangle& pixels, std::vector<std::uint32_t>& covered, Outcome& outcome)
+    bool mark_covered(const PixelRectangle& pixels, Outcome& outcome)
     {
         bool again = false;
         const int least = first_pass_ ? 2 : 1;
@@ -182,12 +193,12 @@ private:
                     continue;
                 }
                 const std::uint32_t shown = farthest_[i];
-                if (shown != nearest_[i] && state_[shown - 1] == State::candidate) {
-                    state_[shown - 1] = State::just_covered;
-                    covered.push_back(shown - 1);
+                if (shown != nearest_[i]) {
+                    state_[shown] = State::just_covered;
+                    any_covered_ = true;
                 }
                 // Of two, the other is the nearest, unless that was taken off in an earlier pass.
-                if (counts_[i] > 2 || (counts_[i] == 2 && state_[nearest_[i] - 1] == State::other)) {
+                if (counts_[i] > 2 || (counts_[i] == 2 && state_[nearest_[i]] == State::other)) {
                     again = true;
                     outcome.saturated = outcome.saturated || counts_[i] == 255;
                 }
@@ -211,8 +222,8 @@ private:
     int block_;
     const ItemBuffer* items_ = nullptr;
     LayerWork* work_ = nullptr;
-    std::vector<Block> blocks_; // alive; row by row from the bottom, from the left
-    std::vector<State> state_;
+    std::vector<Block> blocks_;          // alive; row by row from the bottom, from the left
+    std::vector<State> state_;           // of item i at place i + 1, as an image has it
     std::vector<std::uint32_t> touched_; // the items whose state may be another than `other`
     // Whole images, of which the alive blocks are read.
     std::vector<std::uint32_t> nearest_;
@@ -220,6 +231,7 @@ private:
     std::vector<std::uint8_t> counts_;
     PixelRectangle alive_;
     bool first_pass_ = true; // of step 4
+    bool any_covered_ = false;
 };
 
 } // namespace
