@@ -1,6 +1,6 @@
 #include "bsp/bsp_xmpvo.h"
 
-#include "scene/face_loop.h"
+#include "scene/face_overlap.h"
 #include "sorting/registry.h"
 
 #include <algorithm>
@@ -58,18 +58,12 @@ private:
     double slabs_per_unit_ = 0;
 };
 
-// The distinct points of a face with area, as face_overlap wants them: the first three span its plane. `turn` is left
-// to the eye.
-void set_points(const Scene& scene, const CellFace& face, SeenFace& seen)
+std::vector<std::uint8_t> with_area(const BspTree& tree)
 {
-    for (PointId v : boundary_loop(scene.mesh(), face)) {
-        const glm::dvec3& point = scene.mesh().points[v];
-        const auto end = seen.points.begin() + seen.count;
-        if (std::find(seen.points.begin(), end, point) == end)
-            seen.points[static_cast<std::size_t>(seen.count++)] = point;
-    }
-    while (collinear(seen.points[0], seen.points[1], seen.points[2]))
-        std::rotate(seen.points.begin(), seen.points.begin() + 1, seen.points.begin() + seen.count);
+    std::vector<std::uint8_t> has_area(tree.faces().size());
+    for (std::size_t i = 0; i < has_area.size(); ++i)
+        has_area[i] = tree.group_counts()[i] > 0;
+    return has_area;
 }
 
 } // namespace
@@ -114,7 +108,7 @@ private:
     static bool ready(State s) { return s < one; }
     CellId owner(std::uint32_t face) const { return sorter_.tree_.faces()[face].cell; }
 
-    void count()
+    [[gnu::noinline]] void count()
     {
         const CellId cells = sorter_.scene_.cell_count();
         if constexpr (row > 0) {
@@ -147,32 +141,25 @@ private:
 
     bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
 
-    // The walk has come to some faces that are in one plane or in no order: first what may be covered, then what may
-    // cover.
-    void pass(std::span<const std::uint32_t> group)
+    // The walk has come to some faces that are in one plane or in no order.
+    [[gnu::noinline]] void pass(std::span<const std::uint32_t> group)
     {
         for (std::uint32_t face : group) {
-            if ((sorter_.roles_[face] & entry_role) == 0 ||
-                sorter_.groups_left_[face] != sorter_.tree_.group_counts()[face])
-                continue;
-            const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_face(face);
-            if (is_listed(boundary_cell))
-                continue;
-            sorter_.pending_.add(face);
-            ++sorter_.pending_count_;
-        }
-        for (std::uint32_t face : group)
-            if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0) {
+            const std::uint8_t role = sorter_.roles_[face];
+            if ((role & entry_role) != 0)
+                sorter_.pending_count_ += sorter_.pending_.add(face);
+            if ((role & exit_role) != 0 && --sorter_.groups_left_[face] == 0) {
                 State& state = state_[owner(face)];
                 state = static_cast<State>(state - one);
                 sorter_.queue_[ready_] = owner(face);
                 ready_ += ready(state);
             }
+        }
     }
 
     // Lists the cells that are ready, and those that become so: cells with boundary exit faces last and farthest first,
     // when most of what they may cover has been listed.
-    void list()
+    [[gnu::noinline]] void list()
     {
         list_queue();
         while (farthest_ > 0) {
@@ -197,7 +184,7 @@ private:
         farthest_ = std::max<std::size_t>(farthest_, slab + 1);
     }
 
-    void list_queue()
+    [[gnu::noinline]] void list_queue()
     {
         // Held in local variables: the compiler takes a store of a byte to change anything that is not local.
         State* const state = state_;
@@ -257,6 +244,9 @@ private:
     void list_boundary_cell(std::uint32_t boundary_cell)
     {
         sorter_.is_listed_[boundary_cell] = 1;
+        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
+        for (std::uint32_t face = begin; face < end; ++face)
+            sorter_.pending_.remove(face);
         std::uint32_t waiting = std::exchange(sorter_.waiting_head_[boundary_cell], none);
         while (waiting != none) {
             const std::uint32_t next = sorter_.next_[waiting];
@@ -267,18 +257,19 @@ private:
 
     // A ready cell that covers no pending face goes back to the queue to be listed; else it waits for the cell of one
     // that it covers.
-    void look_for_covered(std::uint32_t boundary_cell)
+    [[gnu::noinline]] void look_for_covered(std::uint32_t boundary_cell)
     {
         const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
-        const auto listed = [&](std::uint32_t other) { return is_listed(other); };
         std::uint32_t covered = none;
         for (std::uint32_t face = begin; face < end && covered == none; ++face)
             if ((sorter_.roles_[face] & exit_role) != 0)
-                sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
-                    if (sorter_.obstructs(face, entry, eye_))
-                        covered = entry;
-                    return covered == none;
-                });
+                sorter_.pending_.search(
+                    face, [&](std::uint32_t entry) { sorter_.heights_.prefetch(entry); },
+                    [&](std::uint32_t entry) {
+                        if (sorter_.obstructs(face, entry, eye_))
+                            covered = entry;
+                        return covered == none;
+                    });
         if (covered != none) {
             ++sorter_.relation_count_;
             std::uint32_t& head = sorter_.waiting_head_[sorter_.boundary_cells_.of_face(covered)];
@@ -320,16 +311,14 @@ BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells)
 }
 
 BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
-    : scene_(scene), tree_(scene, seed), boundary_cells_(tree_.faces(), scene.cell_count())
+    : scene_(scene),
+      tree_(scene, seed),
+      boundary_cells_(tree_.faces(), scene.cell_count()),
+      corners_(scene.mesh(), tree_.faces(), with_area(tree_)),
+      heights_(scene, tree_.faces(), corners_),
+      images_(corners_)
 {
-    if (!scene.is_surface())
-        scene.face_planes();
     scene.overlapping_cells();
-    seen_.resize(tree_.faces().size());
-    oneapi::tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t i) {
-        if (tree_.group_counts()[i] > 0)
-            set_points(scene, tree_.faces()[i], seen_[i]);
-    });
 }
 
 void BspXmpvo::look_at_faces(const glm::dvec4& eye)
@@ -345,6 +334,9 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     deferred_.assign(slab_count, none);
     boxes_.reset(faces.size(), charts.count());
     const Depth depth(scene_.bounds(), eye);
+    has_images_ = charts.has_images();
+    if (has_images_)
+        images_.project(charts);
     oneapi::tbb::parallel_for(
         oneapi::tbb::blocked_range<std::size_t>(0, boundary_cells_.count(), 1024), [&](const auto& range) {
             for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
@@ -354,26 +346,37 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
                     roles_[i] = groups_left_[i] == 0 ? 0 : role(i, eye);
                     if (roles_[i] == 0)
                         continue;
-                    for (int chart = 0; chart < charts.count(); ++chart)
-                        if (const auto box = charts.box(seen_[i].vertices(), chart))
-                            boxes_.set(i, chart, *box);
-                    if ((roles_[i] & exit_role) != 0)
-                        slabs_[cell] = slabs_[cell] == no_slab ? depth.slab(seen_[i].points[0])
-                                                               : std::max(slabs_[cell], depth.slab(seen_[i].points[0]));
+                    if (has_images_)
+                        boxes_.set(i, 0, images_.box(i));
+                    else
+                        set_boxes(i, charts);
+                    if ((roles_[i] & exit_role) != 0) {
+                        const std::uint16_t slab = depth.slab(corners_.points()[corners_.of(i)[0]]);
+                        slabs_[cell] = slabs_[cell] == no_slab ? slab : std::max(slabs_[cell], slab);
+                    }
                 }
             }
         });
-    pending_.reset(boxes_, boundary_cells_.of_faces(),
-                   [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
-    pending_count_ = test_count_ = relation_count_ = 0;
+    pending_.reset(boxes_, [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
+    pending_count_ = test_count_ = exact_test_count_ = relation_count_ = 0;
 }
 
-std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye)
+void BspXmpvo::set_boxes(std::uint32_t face, const ProjectionCharts& charts)
 {
-    SeenFace& seen = seen_[face];
-    seen.turn = side_of_plane(seen.points[0], seen.points[1], seen.points[2], eye);
+    std::array<glm::dvec3, 4> points;
+    const FaceCorners::Corners& corners = corners_.of(face);
+    for (std::size_t k = 0; k < 4; ++k)
+        points[k] = corners_.points()[corners[k]];
+    const auto count = static_cast<std::size_t>(FaceCorners::count(corners));
+    for (int chart = 0; chart < charts.count(); ++chart)
+        if (const auto box = charts.box(std::span(points).first(count), chart))
+            boxes_.set(face, chart, *box);
+}
+
+std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye) const
+{
     if (scene_.is_surface())
-        return seen.turn == Sign::zero ? 0 : exit_role | entry_role;
+        return corners_.seen(face, eye).turn == Sign::zero ? 0 : exit_role | entry_role;
     const CellFace& of_cell = tree_.faces()[face];
     return (signs_.exit(of_cell.cell) >> of_cell.face & 1u) != 0    ? exit_role
            : (signs_.entry(of_cell.cell) >> of_cell.face & 1u) != 0 ? entry_role
@@ -382,20 +385,33 @@ std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye)
 
 bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
 {
+    ++test_count_;
+    const Sure nearer = heights_.nearer(f, g);
+    if (nearer == Sure::no)
+        return false;
+    const Shared shared = has_images_ ? images_.shared(f, g) : Shared::unknown;
+    if (shared == Shared::nothing)
+        return false;
     const CellId front = tree_.faces()[f].cell, back = tree_.faces()[g].cell;
     if (front == back)
         return false;
     if (!scene_.is_surface() && scene_.adjacency().joins(front, back))
         return false; // the face between them carries the relation
-    if (surely_not_nearer(seen_[f], seen_[g]))
-        return false;
-    ++test_count_;
-    const Overlap overlap = face_overlap(seen_[f], seen_[g], eye);
-    if (overlap != Overlap::nearer && (overlap != Overlap::coincident || scene_.is_surface()))
+    if (!(nearer == Sure::yes && shared == Shared::area) && !covers_exactly(f, g, eye))
         return false;
     const auto& overlapping = scene_.overlapping_cells();
     const std::pair<CellId, CellId> pair = std::minmax(front, back);
     return !std::binary_search(overlapping.begin(), overlapping.end(), pair);
+}
+
+bool BspXmpvo::covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
+{
+    const SeenFace front = corners_.seen(f, eye), back = corners_.seen(g, eye);
+    if (surely_not_nearer(front, back))
+        return false;
+    ++exact_test_count_;
+    const Overlap overlap = face_overlap(front, back, eye);
+    return overlap == Overlap::nearer || (overlap == Overlap::coincident && !scene_.is_surface());
 }
 
 template <int row, class State>
@@ -439,16 +455,18 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + size_of(seen_) +
-           size_of(next_) + size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
+           size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + corners_.bytes() +
+           heights_.bytes() + images_.bytes() + size_of(next_) + size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
            size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const
 {
-    return {{"nodes", static_cast<double>(tree_.node_count())}, {"splits", static_cast<double>(tree_.split_count())},
-            {"depth", static_cast<double>(tree_.depth())},      {"pending faces", static_cast<double>(pending_count_)},
-            {"pair tests", static_cast<double>(test_count_)},   {"relations", static_cast<double>(relation_count_)}};
+    const auto as_double = [](std::size_t count) { return static_cast<double>(count); };
+    return {{"nodes", as_double(tree_.node_count())},       {"splits", as_double(tree_.split_count())},
+            {"depth", as_double(tree_.depth())},            {"pending faces", as_double(pending_count_)},
+            {"pair tests", as_double(test_count_)},         {"exact tests", as_double(exact_test_count_)},
+            {"relations", as_double(relation_count_)}};
 }
 
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)

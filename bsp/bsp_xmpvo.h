@@ -1,11 +1,14 @@
 #pragma once
 
 #include "bsp/bsp_tree.h"
+#include "bsp/corner_heights.h"
+#include "bsp/face_corners.h"
+#include "bsp/face_images.h"
 #include "bsp/pending_faces.h"
-#include "scene/face_overlap.h"
 #include "scene/face_planes.h"
 #include "scene/large_array.h"
 #include "sorting/boundary_relations.h"
+#include "sorting/projection_charts.h"
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
 
@@ -25,7 +28,6 @@ public:
 
     std::size_t count() const { return first_face_.size() - 1; }
     std::uint32_t of_face(std::uint32_t face) const { return of_face_[face]; }
-    std::span<const std::uint32_t> of_faces() const { return of_face_; }
     /// Of a cell that is one of them.
     std::size_t of_cell(CellId cell) const
     {
@@ -69,7 +71,7 @@ public:
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
     /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pending faces" (entry faces of partially
-    /// projected cells), "pair tests" and the "relations" they found.
+    /// projected cells), "pair tests", how many of them were "exact tests", and the "relations" they found.
     std::vector<Statistic> statistics() const override;
 
 private:
@@ -78,9 +80,11 @@ private:
 
     // What the eye makes of each of the tree's faces.
     void look_at_faces(const glm::dvec4& eye);
-    std::uint8_t role(std::uint32_t face, const glm::dvec4& eye);
+    std::uint8_t role(std::uint32_t face, const glm::dvec4& eye) const;
+    void set_boxes(std::uint32_t face, const ProjectionCharts& charts);
     // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
     bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
+    bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
@@ -89,6 +93,8 @@ private:
     const Scene& scene_;
     BspTree tree_;
     BoundaryCells boundary_cells_;
+    FaceCorners corners_;
+    CornerHeights heights_;
     FaceSigns signs_;
     LargeArray<std::uint8_t> small_state_;
     LargeArray<std::uint16_t> large_state_;
@@ -96,7 +102,8 @@ private:
     // A face of the tree each.
     std::vector<std::uint8_t> roles_;        // an exit face, an entry face, or both
     std::vector<std::uint32_t> groups_left_; // to which the walk has not come
-    std::vector<SeenFace> seen_;             // of which each eye sets `turn`
+    FaceImages images_;
+    bool has_images_ = false; // from this eye
 
     // A boundary cell each.
     std::vector<std::uint8_t> is_listed_;
@@ -112,6 +119,7 @@ private:
 
     std::size_t pending_count_ = 0;
     std::size_t test_count_ = 0;
+    std::size_t exact_test_count_ = 0;
     std::size_t relation_count_ = 0;
 
     BoundaryRelations all_relations_;
