@@ -65,27 +65,19 @@ CornerHeights::Sides CornerHeights::sides(const Record& plane, const Record& cor
 }
 #endif
 
-bool CornerHeights::others_are_shared(const Sides& sides, std::uint32_t plane, std::uint32_t corners) const
-{
-    const unsigned others = ~(sides.outside | sides.inside) & 15u;
-    if (others == 0)
-        return true;
-    const FaceCorners::Corners &of_plane = corners_.of(plane), &of_face = corners_.of(corners);
-    for (unsigned k = 0; k < 4; ++k)
-        if ((others >> k & 1u) != 0 && !FaceCorners::has(of_plane, of_face[k]))
-            return false;
-    return true;
-}
-
 Sure CornerHeights::nearer(std::uint32_t f, std::uint32_t g) const
 {
     const Sides at_f = sides(records_[f], records_[g]);
     const Sides at_g = sides(records_[g], records_[f]);
-    const bool g_on_one_side = (at_f.outside == 0) != (at_f.inside == 0) && others_are_shared(at_f, f, g);
-    const bool f_on_one_side = (at_g.outside == 0) != (at_g.inside == 0) && others_are_shared(at_g, g, f);
-    if ((g_on_one_side && at_f.inside != 0) || (f_on_one_side && at_g.inside != 0))
-        return Sure::no;
-    return g_on_one_side || f_on_one_side ? Sure::yes : Sure::unknown;
+    const FaceCorners::Common common = FaceCorners::common(corners_.of(f), corners_.of(g));
+    // Without branches: one answer is as likely as another.
+    const bool g_known = (at_f.outside | at_f.inside | common.of_second) == 15u;
+    const bool f_known = (at_g.outside | at_g.inside | common.of_first) == 15u;
+    const unsigned no = static_cast<unsigned>(g_known & (at_f.outside == 0) & (at_f.inside != 0)) |
+                        static_cast<unsigned>(f_known & (at_g.outside == 0) & (at_g.inside != 0));
+    const unsigned yes = static_cast<unsigned>(g_known & (at_f.inside == 0) & (at_f.outside != 0)) |
+                         static_cast<unsigned>(f_known & (at_g.inside == 0) & (at_g.outside != 0));
+    return no != 0 ? Sure::no : yes != 0 ? Sure::yes : Sure::unknown;
 }
 
 } // namespace visorder

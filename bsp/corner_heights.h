@@ -23,7 +23,12 @@ public:
     /// Whether exit face f is nearer than entry face g on the rays that meet both, if there are any. Sure where all of
     /// g lies weakly on one side of f's plane, or f of g's: f is seen from its cell's side, g from outside its cell.
     Sure nearer(std::uint32_t f, std::uint32_t g) const;
-    void prefetch(std::uint32_t face) const { __builtin_prefetch(records_.data() + face); }
+    /// Has fetched what the other reads of a face.
+    void prefetch(std::uint32_t face) const
+    {
+        __builtin_prefetch(records_.data() + face);
+        __builtin_prefetch(&corners_.of(face));
+    }
 
     std::size_t bytes() const { return records_.capacity() * sizeof(Record); }
 
@@ -38,8 +43,6 @@ private:
         unsigned outside, inside;
     };
     static Sides sides(const Record& plane, const Record& corners);
-    // Whether each corner that lies on neither side for sure is one of the plane's own.
-    bool others_are_shared(const Sides& sides, std::uint32_t plane, std::uint32_t corners) const;
 
     const FaceCorners& corners_;
     LargeArray<Record> records_;

@@ -50,7 +50,7 @@ private:
 /// meets here.
 class PendingFaces {
 public:
-    /// Takes the faces with is_entry(face), none of them added. `boxes` must live as long as these are asked for.
+    /// Takes the faces with is_entry(face), none of them added, and makes ready to search by any other.
     template <class IsEntry>
     void reset(const ImageBoxes& boxes, IsEntry&& is_entry);
 
@@ -63,11 +63,16 @@ public:
     }
     void remove(std::uint32_t face) { states_[face] = gone; }
 
-    /// Calls visit(face) for each added one that face `face` may cover and that is not removed, once a chart at most,
-    /// until it returns false: their boxes meet, and not all of the entry face is nearer. Some time before that, it
-    /// calls prepare(face).
-    template <class Prepare, class Visit>
-    void search(std::uint32_t face, Prepare&& prepare, Visit&& visit);
+    /// Calls visit(face) for each added one that face `face` may cover and that is not removed, once a chart at most:
+    /// their boxes meet, and not all of the entry face is nearer.
+    template <class Visit>
+    void search(std::uint32_t face, Visit&& visit);
+
+    /// What a search will read lies scattered in memory. Before many searches, these have it fetched for all of them at
+    /// the same time: each first for all faces, then the next, as each reads what the one before it had fetched.
+    void fetch_numbers(std::uint32_t face) const { __builtin_prefetch(sought_.data() + face * charts()); }
+    void fetch_lists(std::uint32_t face) const;
+    void fetch_entries(std::uint32_t face) const;
 
     std::size_t bytes() const;
 
@@ -76,7 +81,6 @@ private:
     static constexpr std::size_t most_squares = 64;
     // Entries of a list that searches look at before those that are gone are taken out.
     static constexpr std::uint32_t looks_between_cleanings = 64;
-    static constexpr std::size_t found_at_once = 16;
 
     static constexpr std::uint8_t to_come = 0;
     static constexpr std::uint8_t pending = 1;
@@ -101,11 +105,12 @@ private:
         Number farthest;
         std::uint32_t face;
 
-        bool meets(const Entry& other) const
-        {
-            // All four at once: which one fails is as good as random.
-            return ((left <= other.right) & (other.left <= right) & (low <= other.high) & (other.low <= high)) != 0;
-        }
+    };
+    // A face that may cover others.
+    struct Sought {
+        Number left, low, right, high;
+        Number nearest;
+        Number present = 0;
     };
     struct Grid {
         std::uint32_t columns = 1, rows = 1;
@@ -117,6 +122,11 @@ private:
         {
             return {x.number(box.min.x), y.number(box.min.y),     x.number(box.max.x),
                     y.number(box.max.y), depth.number(box.max.z), face};
+        }
+        Sought sought(const ImageBoxes::ImageBox& box) const
+        {
+            return {x.number(box.min.x), y.number(box.min.y),     x.number(box.max.x),
+                    y.number(box.max.y), depth.number(box.min.z), 1};
         }
         std::uint32_t column(Number number) const { return std::uint32_t{number} >> column_shift; }
         std::uint32_t row(Number number) const { return std::uint32_t{number} >> row_shift; }
@@ -159,16 +169,33 @@ private:
                 visit(grid.list(column, row));
     }
 
-    // Looks through one list for what meets `sought` and is not all nearer than `nearest`, if is_here(entry).
-    template <class IsHere, class Prepare, class Visit>
-    bool look_through(List& list, const Entry& sought, Number nearest, IsHere&& is_here, Prepare&& prepare,
-                      Visit&& visit);
+    // The lists that a search goes through.
+    template <class Visit>
+    void each_searched(std::uint32_t face, Visit&& visit) const
+    {
+        for (std::size_t chart = 0; chart < charts(); ++chart) {
+            const Sought& sought = sought_[face * charts() + chart];
+            if (sought.present == 0)
+                continue;
+            const Grid& grid = grids_[chart];
+            const std::uint32_t left = grid.column(sought.left), right = grid.column(sought.right);
+            const std::uint32_t low = grid.row(sought.low), high = grid.row(sought.high);
+            visit(grid, sought, grid.first_list, left, low);
+            for (std::uint32_t row = low; row <= high; ++row)
+                for (std::uint32_t column = left; column <= right; ++column)
+                    visit(grid, sought, grid.list(column, row), column, row);
+        }
+    }
 
-    const ImageBoxes* boxes_ = nullptr;
+    std::size_t charts() const { return grids_.size(); }
+
     std::vector<Grid> grids_; // a chart
     std::vector<List> lists_;
     std::vector<Entry> entries_;
     std::vector<std::uint8_t> states_; // a face
+    std::vector<Sought> sought_;       // in each chart
+
+    std::vector<std::uint32_t> found_; // in one list
 
     // Of one chart, while it is filled.
     std::vector<Entry> faces_;
@@ -178,79 +205,64 @@ private:
 template <class IsEntry>
 void PendingFaces::reset(const ImageBoxes& boxes, IsEntry&& is_entry)
 {
-    boxes_ = &boxes;
     grids_.clear();
     lists_.clear();
     entries_.clear();
     const auto count = static_cast<std::uint32_t>(boxes.face_count());
-    for (int chart = 0; chart < boxes.chart_count(); ++chart) {
+    const auto all_charts = static_cast<std::size_t>(boxes.chart_count());
+    sought_.resize(count * all_charts);
+    for (std::size_t chart = 0; chart < all_charts; ++chart) {
+        const auto box = [&](std::uint32_t face) { return boxes.box(face, static_cast<int>(chart)); };
+        const auto present = [&](std::uint32_t face) { return boxes.present(face, static_cast<int>(chart)); };
         Extent extent;
         for (std::uint32_t face = 0; face < count; ++face)
-            if (is_entry(face) && boxes.present(face, chart))
-                extent.add(boxes.box(face, chart));
+            if (is_entry(face) && present(face))
+                extent.add(box(face));
         const Grid& of_chart = grids_.emplace_back(grid(extent, lists_.size()));
         faces_.clear();
-        for (std::uint32_t face = 0; face < count; ++face)
-            if (is_entry(face) && boxes.present(face, chart))
-                faces_.push_back(of_chart.entry(boxes.box(face, chart), face));
+        for (std::uint32_t face = 0; face < count; ++face) {
+            sought_[face * all_charts + chart] = present(face) ? of_chart.sought(box(face)) : Sought{};
+            if (is_entry(face) && present(face))
+                faces_.push_back(of_chart.entry(box(face), face));
+        }
         fill(of_chart);
     }
     states_.assign(count, to_come);
 }
 
-template <class IsHere, class Prepare, class Visit>
-bool PendingFaces::look_through(List& list, const Entry& sought, Number nearest, IsHere&& is_here, Prepare&& prepare,
-                                Visit&& visit)
+template <class Visit>
+void PendingFaces::search(std::uint32_t face, Visit&& visit)
 {
-    while (list.begin < list.end && states_[entries_[list.begin].face] == gone)
-        ++list.begin;
-    std::uint32_t at = list.begin;
-    while (at < list.end && entries_[at].farthest >= nearest) {
-        std::array<std::uint32_t, found_at_once> found;
+    each_searched(face, [&](const Grid& grid, const Sought by, std::size_t index, std::uint32_t column,
+                            std::uint32_t row) {
+        List& list = lists_[index];
+        const std::uint32_t left = grid.column(by.left), low = grid.row(by.low);
+        const bool of_large = index == grid.first_list;
+        const int column_shift = grid.column_shift, row_shift = grid.row_shift;
+        const Entry* const entries = entries_.data();
+        const std::uint8_t* const states = states_.data();
+        if (found_.size() < list.end - list.begin)
+            found_.resize(list.end - list.begin);
+        std::uint32_t* const found = found_.data();
         std::size_t count = 0;
-        for (; at < list.end && entries_[at].farthest >= nearest && count < found_at_once; ++at) {
-            const Entry& entry = entries_[at];
-            if (entry.meets(sought) && is_here(entry) && states_[entry.face] == pending) {
-                prepare(entry.face);
-                found[count++] = entry.face;
-            }
+        std::uint32_t at = list.begin;
+        // Without branches on what an entry is like: it is as good as random. Of the squares that both faces are in,
+        // only the first counts.
+        for (; at < list.end && entries[at].farthest >= by.nearest; ++at) {
+            const Entry& entry = entries[at];
+            const bool meet = (by.left <= entry.right) & (entry.left <= by.right) & (by.low <= entry.high) &
+                              (entry.low <= by.high);
+            const bool first = (std::max(left, std::uint32_t{entry.left} >> column_shift) == column) &
+                               (std::max(low, std::uint32_t{entry.low} >> row_shift) == row);
+            found[count] = entry.face;
+            count += meet & (first | of_large) & (states[entry.face] == pending);
         }
         for (std::size_t i = 0; i < count; ++i)
-            if (!visit(found[i]))
-                return false;
-    }
-    list.looks += at - list.begin;
-    if (list.looks >= looks_between_cleanings)
-        clean(list, at);
-    return true;
-}
-
-template <class Prepare, class Visit>
-void PendingFaces::search(std::uint32_t face, Prepare&& prepare, Visit&& visit)
-{
-    for (int chart = 0; chart < boxes_->chart_count(); ++chart) {
-        if (!boxes_->present(face, chart))
-            continue;
-        const Grid& grid = grids_[static_cast<std::size_t>(chart)];
-        const ImageBoxes::ImageBox& box = boxes_->box(face, chart);
-        const Entry sought = grid.entry(box, face);
-        const Number nearest = grid.depth.number(box.min.z);
-        const auto anywhere = [](const Entry&) { return true; };
-        if (!look_through(lists_[grid.first_list], sought, nearest, anywhere, prepare, visit))
-            return;
-        const std::uint32_t left = grid.column(sought.left), right = grid.column(sought.right);
-        const std::uint32_t low = grid.row(sought.low), high = grid.row(sought.high);
-        for (std::uint32_t row = low; row <= high; ++row)
-            for (std::uint32_t column = left; column <= right; ++column) {
-                // Of the squares that both are in, in the first.
-                const auto first_here = [&](const Entry& entry) {
-                    return std::max(left, grid.column(entry.left)) == column &&
-                           std::max(low, grid.row(entry.low)) == row;
-                };
-                if (!look_through(lists_[grid.list(column, row)], sought, nearest, first_here, prepare, visit))
-                    return;
-            }
-    }
+            visit(found[i]);
+        list.looks += at - list.begin;
+        if (list.looks >= looks_between_cleanings)
+            clean(list, at);
+    });
 }
 
 } // namespace visorder
