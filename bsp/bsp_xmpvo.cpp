@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint8_t exit_role = 1;
 constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
-constexpr std::size_t faces_between_lists = 1024; // that the walk passes before cells that are ready are listed
+constexpr std::size_t faces_between_lists = 16384; // that the walk passes before cells that are ready are listed
 constexpr std::uint16_t slab_count = 32;          // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
 constexpr std::size_t searched_at_once = 64;      // cells that look for what they cover
@@ -262,7 +262,7 @@ private:
     // Of the ready cells in searched_, those that cover no pending face go back to the queue to be listed; each of the
     // others waits for the cell of one that it covers. Each step is done for all of them before the next, so that they
     // wait for memory together.
-    void look_for_covered()
+    [[gnu::noinline]] void look_for_covered()
     {
         PendingFaces& pending = sorter_.pending_;
         each_exit_face([&](std::uint32_t, std::uint32_t face) { pending.fetch_numbers(face); });
@@ -292,7 +292,7 @@ private:
             settle(searched_[i], covered_[i]);
     }
 
-    void settle(std::uint32_t boundary_cell, std::uint32_t covered)
+    [[gnu::noinline]] void settle(std::uint32_t boundary_cell, std::uint32_t covered)
     {
         if (covered == none) {
             list_boundary_cell(boundary_cell);

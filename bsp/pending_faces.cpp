@@ -74,7 +74,7 @@ void PendingFaces::fill(const Grid& grid)
     lists_.resize(grid.first_list + 1 + std::size_t{grid.columns} * grid.rows);
     std::array<std::uint32_t, depth_steps> places{}; // of the faces of a depth
     for (const Entry& entry : faces_) {
-        ++places[entry.farthest];
+        ++places[entry.farthest()];
         each_list(grid, entry, [&](std::size_t list) { ++lists_[list].end; });
     }
     std::uint32_t place = 0;
@@ -82,7 +82,7 @@ void PendingFaces::fill(const Grid& grid)
         place += std::exchange(places[depth], place);
     farthest_first_.resize(faces_.size());
     for (std::uint32_t i = 0; i < faces_.size(); ++i)
-        farthest_first_[places[faces_[i].farthest]++] = i;
+        farthest_first_[places[faces_[i].farthest()]++] = i;
 
     auto end = static_cast<std::uint32_t>(entries_.size());
     for (std::size_t i = grid.first_list; i < lists_.size(); ++i) {

@@ -10,6 +10,9 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <vector>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 namespace visorder {
 
@@ -87,6 +90,7 @@ private:
     static constexpr std::uint8_t gone = 2;
 
     using Number = std::uint16_t;
+    static constexpr Number most = 0xffff;
 
     // From single precision to numbers, along one axis.
     struct Scale {
@@ -100,11 +104,22 @@ private:
             return static_cast<Number>(place >= most ? most : place > 0 ? place : 0.0f);
         }
     };
-    struct Entry {
-        Number left, low, right, high;
-        Number farthest;
+    // Four sides and a distance, so turned that less is in the way of more; see Query.
+    struct alignas(16) Entry {
+        Number left, low, most_minus_right, most_minus_high;
+        Number most_minus_farthest;
+        Number none;
         std::uint32_t face;
 
+        Number right() const { return static_cast<Number>(most - most_minus_right); }
+        Number high() const { return static_cast<Number>(most - most_minus_high); }
+        Number farthest() const { return static_cast<Number>(most - most_minus_farthest); }
+    };
+    // What entries of a list are asked for: less `from`, modulo 2^16, each of their numbers is to be at most `up_to`.
+    struct alignas(16) Query {
+        std::array<Number, 8> from, up_to;
+
+        bool holds(const Entry& entry) const;
     };
     // A face that may cover others.
     struct Sought {
@@ -120,13 +135,32 @@ private:
 
         Entry entry(const ImageBoxes::ImageBox& box, std::uint32_t face) const
         {
-            return {x.number(box.min.x), y.number(box.min.y),     x.number(box.max.x),
-                    y.number(box.max.y), depth.number(box.max.z), face};
+            const auto from_most = [](Number number) { return static_cast<Number>(most - number); };
+            return {x.number(box.min.x),
+                    y.number(box.min.y),
+                    from_most(x.number(box.max.x)),
+                    from_most(y.number(box.max.y)),
+                    from_most(depth.number(box.max.z)),
+                    0,
+                    face};
         }
         Sought sought(const ImageBoxes::ImageBox& box) const
         {
             return {x.number(box.min.x), y.number(box.min.y),     x.number(box.max.x),
                     y.number(box.max.y), depth.number(box.min.z), 1};
+        }
+        // Of the squares that two faces are both in, only the first counts: that where one of them begins.
+        Query query(const Sought& by, std::uint32_t at_column, std::uint32_t at_row) const
+        {
+            const auto begin = [](std::uint32_t square, int shift, bool first) {
+                return first ? Number{0} : static_cast<Number>(square << shift);
+            };
+            const auto number = [](int n) { return static_cast<Number>(n); };
+            const Number left = begin(at_column, column_shift, at_column == column(by.left));
+            const Number low = begin(at_row, row_shift, at_row == row(by.low));
+            return {{left, low, 0, 0, 0, 0, 0, 0},
+                    {number(by.right - left), number(by.high - low), number(most - by.left), number(most - by.low),
+                     number(most - by.nearest), most, most, most}};
         }
         std::uint32_t column(Number number) const { return std::uint32_t{number} >> column_shift; }
         std::uint32_t row(Number number) const { return std::uint32_t{number} >> row_shift; }
@@ -158,8 +192,8 @@ private:
     template <class Visit>
     static void each_list(const Grid& grid, const Entry& entry, Visit&& visit)
     {
-        const std::uint32_t left = grid.column(entry.left), right = grid.column(entry.right);
-        const std::uint32_t low = grid.row(entry.low), high = grid.row(entry.high);
+        const std::uint32_t left = grid.column(entry.left), right = grid.column(entry.right());
+        const std::uint32_t low = grid.row(entry.low), high = grid.row(entry.high());
         if (std::size_t{right - left + 1} * (high - low + 1) > most_squares) {
             visit(grid.first_list);
             return;
@@ -180,7 +214,7 @@ private:
             const Grid& grid = grids_[chart];
             const std::uint32_t left = grid.column(sought.left), right = grid.column(sought.right);
             const std::uint32_t low = grid.row(sought.low), high = grid.row(sought.high);
-            visit(grid, sought, grid.first_list, left, low);
+            visit(grid, sought, grid.first_list, left, low); // as in the first square: no other counts
             for (std::uint32_t row = low; row <= high; ++row)
                 for (std::uint32_t column = left; column <= right; ++column)
                     visit(grid, sought, grid.list(column, row), column, row);
@@ -201,6 +235,26 @@ private:
     std::vector<Entry> faces_;
     std::vector<std::uint32_t> farthest_first_; // in faces_
 };
+
+#if defined(__SSE2__)
+inline bool PendingFaces::Query::holds(const Entry& entry) const
+{
+    const auto load = [](const void* numbers) { return _mm_load_si128(static_cast<const __m128i*>(numbers)); };
+    const __m128i less = _mm_sub_epi16(load(&entry), load(from.data()));
+    const __m128i beyond = _mm_subs_epu16(less, load(up_to.data()));
+    return _mm_movemask_epi8(_mm_cmpeq_epi16(beyond, _mm_setzero_si128())) == 0xffff;
+}
+#else
+inline bool PendingFaces::Query::holds(const Entry& entry) const
+{
+    const std::array<Number, 5> numbers{entry.left, entry.low, entry.most_minus_right, entry.most_minus_high,
+                                        entry.most_minus_farthest};
+    bool hold = true;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        hold = hold & (static_cast<Number>(numbers[i] - from[i]) <= up_to[i]);
+    return hold;
+}
+#endif
 
 template <class IsEntry>
 void PendingFaces::reset(const ImageBoxes& boxes, IsEntry&& is_entry)
@@ -236,9 +290,7 @@ void PendingFaces::search(std::uint32_t face, Visit&& visit)
     each_searched(face, [&](const Grid& grid, const Sought by, std::size_t index, std::uint32_t column,
                             std::uint32_t row) {
         List& list = lists_[index];
-        const std::uint32_t left = grid.column(by.left), low = grid.row(by.low);
-        const bool of_large = index == grid.first_list;
-        const int column_shift = grid.column_shift, row_shift = grid.row_shift;
+        const Query query = grid.query(by, column, row);
         const Entry* const entries = entries_.data();
         const std::uint8_t* const states = states_.data();
         if (found_.size() < list.end - list.begin)
@@ -246,16 +298,10 @@ void PendingFaces::search(std::uint32_t face, Visit&& visit)
         std::uint32_t* const found = found_.data();
         std::size_t count = 0;
         std::uint32_t at = list.begin;
-        // Without branches on what an entry is like: it is as good as random. Of the squares that both faces are in,
-        // only the first counts.
-        for (; at < list.end && entries[at].farthest >= by.nearest; ++at) {
-            const Entry& entry = entries[at];
-            const bool meet = (by.left <= entry.right) & (entry.left <= by.right) & (by.low <= entry.high) &
-                              (entry.low <= by.high);
-            const bool first = (std::max(left, std::uint32_t{entry.left} >> column_shift) == column) &
-                               (std::max(low, std::uint32_t{entry.low} >> row_shift) == row);
-            found[count] = entry.face;
-            count += meet & (first | of_large) & (states[entry.face] == pending);
+        // Without branches on what an entry is like: it is as good as random.
+        for (; at < list.end && entries[at].most_minus_farthest <= query.up_to[4]; ++at) {
+            found[count] = entries[at].face;
+            count += static_cast<std::size_t>(query.holds(entries[at]) & (states[entries[at].face] == pending));
         }
         for (std::size_t i = 0; i < count; ++i)
             visit(found[i]);
