@@ -20,8 +20,7 @@ namespace {
 constexpr std::uint8_t exit_role = 1;
 constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
-constexpr std::size_t faces_between_lists = 16384; // that the walk passes before cells that are ready are listed
-constexpr std::uint16_t slab_count = 32;          // of the scene's depth
+constexpr std::uint16_t slab_count = 128;          // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
 constexpr std::size_t searched_at_once = 64;      // cells that look for what they cover
 constexpr std::size_t prefetch_rows = 32;
@@ -90,15 +89,6 @@ public:
     std::size_t run()
     {
         count();
-        std::size_t passed = 0;
-        sorter_.tree_.walk(eye_, [&](std::span<const std::uint32_t> group) {
-            pass(group);
-            passed += group.size();
-            if (passed >= faces_between_lists) {
-                list();
-                passed = 0;
-            }
-        });
         list();
         return listed_;
     }
@@ -110,7 +100,7 @@ private:
     static bool ready(State s) { return s < one; }
     CellId owner(std::uint32_t face) const { return sorter_.tree_.faces()[face].cell; }
 
-    [[gnu::noinline]] void count()
+    void count()
     {
         const CellId cells = sorter_.scene_.cell_count();
         if constexpr (row > 0) {
@@ -126,12 +116,10 @@ private:
         } else {
             std::fill_n(state_, cells, State{0});
         }
-        for (std::uint32_t face = 0; face < sorter_.roles_.size(); ++face)
-            if (sorter_.roles_[face] != 0) {
-                const State more = (sorter_.roles_[face] & exit_role) != 0 ? one : State{0};
-                State& state = state_[owner(face)];
-                state = static_cast<State>((state + more) | at_boundary);
-            }
+        for (std::size_t i = 0; i < sorter_.boundary_cells_.count(); ++i) {
+            State& state = state_[owner(sorter_.boundary_cells_.faces(i).first)];
+            state = static_cast<State>(state | at_boundary);
+        }
         // A boundary cell can be there twice: when it is ready, and when it may be listed.
         sorter_.queue_.resize(cells + sorter_.boundary_cells_.count() + 1);
         CellId* const queue = sorter_.queue_.data();
@@ -143,25 +131,9 @@ private:
 
     bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
 
-    // The walk has come to some faces that are in one plane or in no order.
-    [[gnu::noinline]] void pass(std::span<const std::uint32_t> group)
-    {
-        for (std::uint32_t face : group) {
-            const std::uint8_t role = sorter_.roles_[face];
-            if ((role & entry_role) != 0)
-                sorter_.pending_count_ += sorter_.pending_.add(face);
-            if ((role & exit_role) != 0 && --sorter_.groups_left_[face] == 0) {
-                State& state = state_[owner(face)];
-                state = static_cast<State>(state - one);
-                sorter_.queue_[ready_] = owner(face);
-                ready_ += ready(state);
-            }
-        }
-    }
-
     // Lists the cells that are ready, and those that become so: cells with boundary exit faces last and farthest first,
     // when most of what they may cover has been listed.
-    [[gnu::noinline]] void list()
+    void list()
     {
         list_queue();
         while (farthest_ > 0) {
@@ -188,7 +160,7 @@ private:
         farthest_ = std::max<std::size_t>(farthest_, slab + 1);
     }
 
-    [[gnu::noinline]] void list_queue()
+    void list_queue()
     {
         // Held in local variables: the compiler takes a store of a byte to change anything that is not local.
         State* const state = state_;
@@ -262,7 +234,7 @@ private:
     // Of the ready cells in searched_, those that cover no pending face go back to the queue to be listed; each of the
     // others waits for the cell of one that it covers. Each step is done for all of them before the next, so that they
     // wait for memory together.
-    [[gnu::noinline]] void look_for_covered()
+    void look_for_covered()
     {
         PendingFaces& pending = sorter_.pending_;
         each_exit_face([&](std::uint32_t, std::uint32_t face) { pending.fetch_numbers(face); });
@@ -292,7 +264,7 @@ private:
             settle(searched_[i], covered_[i]);
     }
 
-    [[gnu::noinline]] void settle(std::uint32_t boundary_cell, std::uint32_t covered)
+    void settle(std::uint32_t boundary_cell, std::uint32_t covered)
     {
         if (covered == none) {
             list_boundary_cell(boundary_cell);
@@ -376,7 +348,7 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     const std::span<const CellFace> faces = tree_.faces();
     const ProjectionCharts charts(scene_.bounds(), eye);
     roles_.resize(faces.size());
-    groups_left_.assign(tree_.group_counts().begin(), tree_.group_counts().end());
+    walk(eye);
     is_listed_.assign(boundary_cells_.count(), 0);
     waiting_head_.assign(boundary_cells_.count(), none);
     next_.resize(boundary_cells_.count());
@@ -393,7 +365,7 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
                 slabs_[cell] = no_slab;
                 const auto [begin, end] = boundary_cells_.faces(cell);
                 for (std::uint32_t i = begin; i < end; ++i) {
-                    roles_[i] = groups_left_[i] == 0 ? 0 : role(i, eye);
+                    roles_[i] = tree_.group_counts()[i] == 0 ? 0 : role(i, eye);
                     if (roles_[i] == 0)
                         continue;
                     if (has_images_)
@@ -407,8 +379,25 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
                 }
             }
         });
-    pending_.reset(boxes_, [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
-    pending_count_ = test_count_ = exact_test_count_ = relation_count_ = 0;
+    pending_.reset(boxes_, ranks_, [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
+    test_count_ = exact_test_count_ = relation_count_ = 0;
+}
+
+void BspXmpvo::walk(const glm::dvec4& eye)
+{
+    const std::size_t faces = tree_.faces().size();
+    ranks_.last.assign(faces, 0);
+    ranks_.first.assign(faces, 0xffff);
+    const std::size_t groups = std::max<std::size_t>(tree_.node_count(), 1);
+    std::size_t group_count = 0;
+    tree_.walk(eye, [&](std::span<const std::uint32_t> group) {
+        const auto rank = static_cast<std::uint16_t>(group_count * 65536 / groups);
+        for (std::uint32_t face : group) {
+            ranks_.last[face] = rank;
+            ranks_.first[face] = std::min(ranks_.first[face], rank);
+        }
+        ++group_count;
+    });
 }
 
 void BspXmpvo::set_boxes(std::uint32_t face, const ProjectionCharts& charts)
@@ -501,7 +490,7 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + corners_.bytes() +
+           size_of(ranks_.first) + size_of(ranks_.last) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + corners_.bytes() +
            heights_.bytes() + images_.bytes() + size_of(next_) + size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
            size_of(all_relations_.relations) + topological_sort_.bytes();
 }
@@ -510,7 +499,7 @@ std::vector<Statistic> BspXmpvo::statistics() const
 {
     const auto as_double = [](std::size_t count) { return static_cast<double>(count); };
     return {{"nodes", as_double(tree_.node_count())},       {"splits", as_double(tree_.split_count())},
-            {"depth", as_double(tree_.depth())},            {"pending faces", as_double(pending_count_)},
+            {"depth", as_double(tree_.depth())},
             {"pair tests", as_double(test_count_)},         {"exact tests", as_double(exact_test_count_)},
             {"relations", as_double(relation_count_)}};
 }

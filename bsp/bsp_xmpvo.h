@@ -78,13 +78,14 @@ private:
     template <int row, class State>
     friend class BspMerge;
 
+    void walk(const glm::dvec4& eye);
     // What the eye makes of each of the tree's faces.
-    [[gnu::noinline]] void look_at_faces(const glm::dvec4& eye);
+    void look_at_faces(const glm::dvec4& eye);
     std::uint8_t role(std::uint32_t face, const glm::dvec4& eye) const;
     void set_boxes(std::uint32_t face, const ProjectionCharts& charts);
     // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists; `nearer`: what is
     // known of that.
-    [[gnu::noinline]] bool obstructs(std::uint32_t f, std::uint32_t g, Sure nearer, const glm::dvec4& eye);
+    bool obstructs(std::uint32_t f, std::uint32_t g, Sure nearer, const glm::dvec4& eye);
     bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
@@ -102,7 +103,7 @@ private:
 
     // A face of the tree each.
     std::vector<std::uint8_t> roles_;        // an exit face, an entry face, or both
-    std::vector<std::uint32_t> groups_left_; // to which the walk has not come
+    Ranks ranks_;                            // in the walk
     FaceImages images_;
     bool has_images_ = false; // from this eye
 
@@ -118,7 +119,6 @@ private:
     ImageBoxes boxes_;
     PendingFaces pending_;
 
-    std::size_t pending_count_ = 0;
     std::size_t test_count_ = 0;
     std::size_t exact_test_count_ = 0;
     std::size_t relation_count_ = 0;

@@ -99,7 +99,7 @@ void PendingFaces::clean(List& list, std::uint32_t end)
 {
     std::uint32_t kept = end;
     for (std::uint32_t i = end; i-- > list.begin;)
-        if (states_[entries_[i].face] != gone)
+        if (is_gone_[entries_[i].face] == 0)
             entries_[--kept] = entries_[i];
     list.begin = kept;
     list.looks = 0;
@@ -124,7 +124,7 @@ void PendingFaces::fetch_entries(std::uint32_t face) const
 std::size_t PendingFaces::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-    return size_of(grids_) + size_of(lists_) + size_of(entries_) + size_of(states_) + size_of(sought_) +
+    return size_of(grids_) + size_of(lists_) + size_of(entries_) + size_of(is_gone_) + size_of(sought_) +
            size_of(faces_) + size_of(farthest_first_);
 }
 

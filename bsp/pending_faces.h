@@ -45,29 +45,28 @@ private:
     std::vector<ImageBox> boxes_;
 };
 
-/// Entry faces by where they are in the image, to find those that an exit face may cover: a grid over each chart, whose
-/// squares list their faces farthest first. A face is found from the time when the walk of the BSP tree comes to it
-/// (`add`) until its cell is listed (`remove`).
+/// When the walk of a BSP tree comes to a face first and last: `Ranks::first` and `last` of each face, which grow along
+/// the walk.
+struct Ranks {
+    std::vector<std::uint16_t> first, last;
+};
+
+/// Entry faces by where they are in the image and in the walk of a BSP tree, to find those that an exit face may cover:
+/// a grid over each chart, whose squares list their faces farthest first. A face is pending until its cell is listed.
 ///
 /// Boxes are kept in 16-bit numbers, to which single precision is mapped without changing its order: what meets there
 /// meets here.
 class PendingFaces {
 public:
-    /// Takes the faces with is_entry(face), none of them added, and makes ready to search by any other.
+    /// Takes the faces with is_entry(face), all of them pending, and makes ready to search by any other.
     template <class IsEntry>
-    void reset(const ImageBoxes& boxes, IsEntry&& is_entry);
+    void reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& is_entry);
 
-    /// Returns whether the face was neither added nor removed before.
-    bool add(std::uint32_t face)
-    {
-        const bool first = states_[face] == to_come;
-        states_[face] = first ? pending : states_[face];
-        return first;
-    }
-    void remove(std::uint32_t face) { states_[face] = gone; }
+    /// The face's cell has been listed.
+    void remove(std::uint32_t face) { is_gone_[face] = 1; }
 
-    /// Calls visit(face) for each added one that face `face` may cover and that is not removed, once a chart at most:
-    /// their boxes meet, and not all of the entry face is nearer.
+    /// Calls visit(face) for each pending one that face `face` may cover, once a chart at most: their boxes meet, not
+    /// all of the entry face is nearer, and the walk came to it before it left `face`.
     template <class Visit>
     void search(std::uint32_t face, Visit&& visit);
 
@@ -85,10 +84,6 @@ private:
     // Entries of a list that searches look at before those that are gone are taken out.
     static constexpr std::uint32_t looks_between_cleanings = 64;
 
-    static constexpr std::uint8_t to_come = 0;
-    static constexpr std::uint8_t pending = 1;
-    static constexpr std::uint8_t gone = 2;
-
     using Number = std::uint16_t;
     static constexpr Number most = 0xffff;
 
@@ -104,11 +99,11 @@ private:
             return static_cast<Number>(place >= most ? most : place > 0 ? place : 0.0f);
         }
     };
-    // Four sides and a distance, so turned that less is in the way of more; see Query.
+    // Four sides, a distance and a rank, all so turned that an upper bound can be asked for; see Query.
     struct alignas(16) Entry {
         Number left, low, most_minus_right, most_minus_high;
         Number most_minus_farthest;
-        Number none;
+        Number first_rank;
         std::uint32_t face;
 
         Number right() const { return static_cast<Number>(most - most_minus_right); }
@@ -125,7 +120,8 @@ private:
     struct Sought {
         Number left, low, right, high;
         Number nearest;
-        Number present = 0;
+        Number last_rank;
+        bool present = false;
     };
     struct Grid {
         std::uint32_t columns = 1, rows = 1;
@@ -133,7 +129,7 @@ private:
         Scale x, y, depth;
         std::size_t first_list = 0; // of the faces too large for the grid; those of its squares follow
 
-        Entry entry(const ImageBoxes::ImageBox& box, std::uint32_t face) const
+        Entry entry(const ImageBoxes::ImageBox& box, Number first_rank, std::uint32_t face) const
         {
             const auto from_most = [](Number number) { return static_cast<Number>(most - number); };
             return {x.number(box.min.x),
@@ -141,13 +137,13 @@ private:
                     from_most(x.number(box.max.x)),
                     from_most(y.number(box.max.y)),
                     from_most(depth.number(box.max.z)),
-                    0,
+                    first_rank,
                     face};
         }
-        Sought sought(const ImageBoxes::ImageBox& box) const
+        Sought sought(const ImageBoxes::ImageBox& box, Number last_rank) const
         {
-            return {x.number(box.min.x), y.number(box.min.y),     x.number(box.max.x),
-                    y.number(box.max.y), depth.number(box.min.z), 1};
+            return {x.number(box.min.x),     y.number(box.min.y), x.number(box.max.x), y.number(box.max.y),
+                    depth.number(box.min.z), last_rank,           true};
         }
         // Of the squares that two faces are both in, only the first counts: that where one of them begins.
         Query query(const Sought& by, std::uint32_t at_column, std::uint32_t at_row) const
@@ -160,7 +156,7 @@ private:
             const Number low = begin(at_row, row_shift, at_row == row(by.low));
             return {{left, low, 0, 0, 0, 0, 0, 0},
                     {number(by.right - left), number(by.high - low), number(most - by.left), number(most - by.low),
-                     number(most - by.nearest), most, most, most}};
+                     number(most - by.nearest), by.last_rank, most, most}};
         }
         std::uint32_t column(Number number) const { return std::uint32_t{number} >> column_shift; }
         std::uint32_t row(Number number) const { return std::uint32_t{number} >> row_shift; }
@@ -209,7 +205,7 @@ private:
     {
         for (std::size_t chart = 0; chart < charts(); ++chart) {
             const Sought& sought = sought_[face * charts() + chart];
-            if (sought.present == 0)
+            if (!sought.present)
                 continue;
             const Grid& grid = grids_[chart];
             const std::uint32_t left = grid.column(sought.left), right = grid.column(sought.right);
@@ -226,8 +222,8 @@ private:
     std::vector<Grid> grids_; // a chart
     std::vector<List> lists_;
     std::vector<Entry> entries_;
-    std::vector<std::uint8_t> states_; // a face
-    std::vector<Sought> sought_;       // in each chart
+    std::vector<std::uint8_t> is_gone_; // a face
+    std::vector<Sought> sought_;        // a face in each chart
 
     std::vector<std::uint32_t> found_; // in one list
 
@@ -247,8 +243,9 @@ inline bool PendingFaces::Query::holds(const Entry& entry) const
 #else
 inline bool PendingFaces::Query::holds(const Entry& entry) const
 {
-    const std::array<Number, 5> numbers{entry.left, entry.low, entry.most_minus_right, entry.most_minus_high,
-                                        entry.most_minus_farthest};
+    const std::array<Number, 6> numbers{
+        entry.left, entry.low, entry.most_minus_right, entry.most_minus_high, entry.most_minus_farthest,
+        entry.first_rank};
     bool hold = true;
     for (std::size_t i = 0; i < numbers.size(); ++i)
         hold = hold & (static_cast<Number>(numbers[i] - from[i]) <= up_to[i]);
@@ -257,7 +254,7 @@ inline bool PendingFaces::Query::holds(const Entry& entry) const
 #endif
 
 template <class IsEntry>
-void PendingFaces::reset(const ImageBoxes& boxes, IsEntry&& is_entry)
+void PendingFaces::reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& is_entry)
 {
     grids_.clear();
     lists_.clear();
@@ -275,13 +272,13 @@ void PendingFaces::reset(const ImageBoxes& boxes, IsEntry&& is_entry)
         const Grid& of_chart = grids_.emplace_back(grid(extent, lists_.size()));
         faces_.clear();
         for (std::uint32_t face = 0; face < count; ++face) {
-            sought_[face * all_charts + chart] = present(face) ? of_chart.sought(box(face)) : Sought{};
+            sought_[face * all_charts + chart] = present(face) ? of_chart.sought(box(face), ranks.last[face]) : Sought{};
             if (is_entry(face) && present(face))
-                faces_.push_back(of_chart.entry(box(face), face));
+                faces_.push_back(of_chart.entry(box(face), ranks.first[face], face));
         }
         fill(of_chart);
     }
-    states_.assign(count, to_come);
+    is_gone_.assign(count, 0);
 }
 
 template <class Visit>
@@ -292,7 +289,7 @@ void PendingFaces::search(std::uint32_t face, Visit&& visit)
         List& list = lists_[index];
         const Query query = grid.query(by, column, row);
         const Entry* const entries = entries_.data();
-        const std::uint8_t* const states = states_.data();
+        const std::uint8_t* const is_gone = is_gone_.data();
         if (found_.size() < list.end - list.begin)
             found_.resize(list.end - list.begin);
         std::uint32_t* const found = found_.data();
@@ -301,7 +298,7 @@ void PendingFaces::search(std::uint32_t face, Visit&& visit)
         // Without branches on what an entry is like: it is as good as random.
         for (; at < list.end && entries[at].most_minus_farthest <= query.up_to[4]; ++at) {
             found[count] = entries[at].face;
-            count += static_cast<std::size_t>(query.holds(entries[at]) & (states[entries[at].face] == pending));
+            count += static_cast<std::size_t>(query.holds(entries[at]) & (is_gone[entries[at].face] == 0));
         }
         for (std::size_t i = 0; i < count; ++i)
             visit(found[i]);
