@@ -110,9 +110,12 @@ private:
         Number high() const { return static_cast<Number>(most - most_minus_high); }
         Number farthest() const { return static_cast<Number>(most - most_minus_farthest); }
     };
-    // What entries of a list are asked for: less `from`, modulo 2^16, each of their numbers is to be at most `up_to`.
-    struct alignas(16) Query {
-        std::array<Number, 8> from, up_to;
+    // What entries of a list are asked for: their first six numbers less `from`, modulo 2^16, are to be at most `up_to`.
+    // Four numbers are in one, the first lowest.
+    struct Query {
+        std::uint64_t from;
+        std::array<std::uint64_t, 2> up_to;
+        Number most_minus_nearest;
 
         bool holds(const Entry& entry) const;
     };
@@ -151,12 +154,17 @@ private:
             const auto begin = [](std::uint32_t square, int shift, bool first) {
                 return first ? Number{0} : static_cast<Number>(square << shift);
             };
-            const auto number = [](int n) { return static_cast<Number>(n); };
+            const auto four = [](unsigned a, unsigned b, unsigned c, unsigned d) {
+                return std::uint64_t{c | d << 16} << 32 | (a | b << 16);
+            };
             const Number left = begin(at_column, column_shift, at_column == column(by.left));
             const Number low = begin(at_row, row_shift, at_row == row(by.low));
-            return {{left, low, 0, 0, 0, 0, 0, 0},
-                    {number(by.right - left), number(by.high - low), number(most - by.left), number(most - by.low),
-                     number(most - by.nearest), by.last_rank, most, most}};
+            const auto most_minus_nearest = static_cast<Number>(most - by.nearest);
+            return {four(left, low, 0, 0),
+                    {four(static_cast<Number>(by.right - left), static_cast<Number>(by.high - low),
+                          static_cast<Number>(most - by.left), static_cast<Number>(most - by.low)),
+                     four(most_minus_nearest, by.last_rank, most, most)},
+                    most_minus_nearest};
         }
         std::uint32_t column(Number number) const { return std::uint32_t{number} >> column_shift; }
         std::uint32_t row(Number number) const { return std::uint32_t{number} >> row_shift; }
@@ -235,9 +243,11 @@ private:
 #if defined(__SSE2__)
 inline bool PendingFaces::Query::holds(const Entry& entry) const
 {
-    const auto load = [](const void* numbers) { return _mm_load_si128(static_cast<const __m128i*>(numbers)); };
-    const __m128i less = _mm_sub_epi16(load(&entry), load(from.data()));
-    const __m128i beyond = _mm_subs_epu16(less, load(up_to.data()));
+    const auto numbers = [](std::uint64_t low, std::uint64_t high) {
+        return _mm_set_epi64x(static_cast<long long>(high), static_cast<long long>(low));
+    };
+    const __m128i less = _mm_sub_epi16(_mm_load_si128(reinterpret_cast<const __m128i*>(&entry)), numbers(from, 0));
+    const __m128i beyond = _mm_subs_epu16(less, numbers(up_to[0], up_to[1]));
     return _mm_movemask_epi8(_mm_cmpeq_epi16(beyond, _mm_setzero_si128())) == 0xffff;
 }
 #else
@@ -247,8 +257,11 @@ inline bool PendingFaces::Query::holds(const Entry& entry) const
         entry.left, entry.low, entry.most_minus_right, entry.most_minus_high, entry.most_minus_farthest,
         entry.first_rank};
     bool hold = true;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        hold = hold & (static_cast<Number>(numbers[i] - from[i]) <= up_to[i]);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto bound = static_cast<Number>(up_to[i / 4] >> i % 4 * 16);
+        const auto less = static_cast<Number>(i < 2 ? numbers[i] - (from >> i * 16) : numbers[i]);
+        hold = hold & (less <= bound);
+    }
     return hold;
 }
 #endif
@@ -296,7 +309,7 @@ void PendingFaces::search(std::uint32_t face, Visit&& visit)
         std::size_t count = 0;
         std::uint32_t at = list.begin;
         // Without branches on what an entry is like: it is as good as random.
-        for (; at < list.end && entries[at].most_minus_farthest <= query.up_to[4]; ++at) {
+        for (; at < list.end && entries[at].most_minus_farthest <= query.most_minus_nearest; ++at) {
             found[count] = entries[at].face;
             count += static_cast<std::size_t>(query.holds(entries[at]) & (is_gone[entries[at].face] == 0));
         }
