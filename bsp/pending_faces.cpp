@@ -105,22 +105,6 @@ void PendingFaces::clean(List& list, std::uint32_t end)
     list.looks = 0;
 }
 
-void PendingFaces::fetch_lists(std::uint32_t face) const
-{
-    each_searched(face, [&](const Grid&, const Sought&, std::size_t list, std::uint32_t, std::uint32_t) {
-        __builtin_prefetch(lists_.data() + list, 1);
-    });
-}
-
-void PendingFaces::fetch_entries(std::uint32_t face) const
-{
-    each_searched(face, [&](const Grid&, const Sought&, std::size_t list, std::uint32_t, std::uint32_t) {
-        const Entry* first = entries_.data() + lists_[list].begin;
-        __builtin_prefetch(first);
-        __builtin_prefetch(first + 64 / sizeof(Entry));
-    });
-}
-
 std::size_t PendingFaces::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };

@@ -70,12 +70,6 @@ public:
     template <class Visit>
     void search(std::uint32_t face, Visit&& visit);
 
-    /// What a search will read lies scattered in memory. Before many searches, these have it fetched for all of them at
-    /// the same time: each first for all faces, then the next, as each reads what the one before it had fetched.
-    void fetch_numbers(std::uint32_t face) const { __builtin_prefetch(sought_.data() + face * charts()); }
-    void fetch_lists(std::uint32_t face) const;
-    void fetch_entries(std::uint32_t face) const;
-
     std::size_t bytes() const;
 
 private:
