@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <ranges>
 #include <utility>
 
 namespace visorder {
@@ -23,7 +22,6 @@ constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
 constexpr std::uint16_t slab_count = 64;           // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
-constexpr std::size_t searched_at_once = 64;      // cells that look for what they cover
 constexpr std::size_t prefetch_rows = 32;
 constexpr std::size_t prefetch_states = 12;
 
@@ -162,11 +160,9 @@ private:
                 continue;
             }
             while (boundary_cell != none) {
-                searched_.clear();
-                for (; boundary_cell != none && searched_.size() < searched_at_once;
-                     boundary_cell = sorter_.next_[boundary_cell])
-                    searched_.push_back(boundary_cell);
-                look_for_covered();
+                const std::uint32_t next = sorter_.next_[boundary_cell];
+                look_for_covered(boundary_cell);
+                boundary_cell = next;
             }
             list_queue();
         }
@@ -250,71 +246,28 @@ private:
         }
     }
 
-    // Of the ready cells in searched_, those that cover no pending face go back to the queue to be listed; each of the
-    // others waits for the cell of one that it covers. Each step is done for all of them before the next, so that they
-    // wait for memory together.
-    void look_for_covered()
+    // A ready cell that covers no pending face goes back to the queue to be listed; else it waits for the cell of one
+    // that it covers: a near one, which is likely to be listed last.
+    void look_for_covered(std::uint32_t boundary_cell)
     {
-        PendingFaces& pending = sorter_.pending_;
-        candidates_.clear();
-        each_exit_face([&](std::uint32_t i, std::uint32_t face) {
-            sorter_.heights_.prefetch(face);
-            pending.search(face, [&](std::uint32_t entry) {
-                sorter_.heights_.prefetch(entry);
-                candidates_.push_back({face, entry, i, Sure::unknown});
-            });
-        });
-        sorter_.test_count_ += candidates_.size();
-        std::size_t left = 0;
-        for (const Candidate& c : candidates_) {
-            const Sure nearer = sorter_.heights_.nearer(c.exit, c.entry);
-            candidates_[left] = {c.exit, c.entry, c.searched, nearer};
-            sorter_.images_.prefetch(c.entry);
-            left += nearer != Sure::no;
-        }
-        candidates_.resize(left);
-        covered_.assign(searched_.size(), none);
-        for (const Candidate& c : candidates_ | std::views::reverse)
-            if (covered_[c.searched] == none && sorter_.obstructs(c.exit, c.entry, c.nearer, eye_))
-                covered_[c.searched] = c.entry;
-        for (std::size_t i = 0; i < searched_.size(); ++i)
-            settle(searched_[i], covered_[i]);
-    }
-
-    void settle(std::uint32_t boundary_cell, std::uint32_t covered)
-    {
-        if (covered == none) {
-            list_boundary_cell(boundary_cell);
-            sorter_.queue_[ready_++] = owner(sorter_.boundary_cells_.faces(boundary_cell).first);
+        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
+        std::uint32_t covered = none;
+        for (std::uint32_t face = begin; face < end && covered == none; ++face)
+            if ((sorter_.roles_[face] & exit_role) != 0)
+                sorter_.pending_.search(face, [&](std::uint32_t entry) {
+                    if (sorter_.obstructs(face, entry, eye_))
+                        covered = entry;
+                    return covered == none;
+                });
+        if (covered != none) {
+            ++sorter_.relation_count_;
+            std::uint32_t& head = sorter_.waiting_head_[sorter_.boundary_cells_.of_face(covered)];
+            sorter_.next_[boundary_cell] = std::exchange(head, boundary_cell);
             return;
         }
-        ++sorter_.relation_count_;
-        const std::uint32_t back = sorter_.boundary_cells_.of_face(covered);
-        if (is_listed(back)) { // since
-            defer(boundary_cell);
-            return;
-        }
-        sorter_.next_[boundary_cell] = std::exchange(sorter_.waiting_head_[back], boundary_cell);
+        list_boundary_cell(boundary_cell);
+        sorter_.queue_[ready_++] = owner(begin);
     }
-
-    template <class Visit>
-    void each_exit_face(Visit&& visit) const
-    {
-        for (std::uint32_t i = 0; i < searched_.size(); ++i) {
-            const auto [begin, end] = sorter_.boundary_cells_.faces(searched_[i]);
-            for (std::uint32_t face = begin; face < end; ++face)
-                if ((sorter_.roles_[face] & exit_role) != 0)
-                    visit(i, face);
-        }
-    }
-
-    // A pending face that may be covered by one of a cell in searched_.
-    struct Candidate {
-        std::uint32_t exit;
-        std::uint32_t entry;
-        std::uint32_t searched;
-        Sure nearer;
-    };
 
     BspXmpvo& sorter_;
     const glm::dvec4& eye_;
@@ -326,9 +279,6 @@ private:
     std::size_t ready_ = 0;
     std::size_t listed_ = 0;
     std::size_t farthest_ = 0; // one more than the farthest slab that may hold deferred cells
-    std::vector<std::uint32_t> searched_;
-    std::vector<std::uint32_t> covered_;
-    std::vector<Candidate> candidates_;
 };
 
 BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells)
@@ -439,8 +389,12 @@ std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye) const
                                                                     : 0;
 }
 
-bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, Sure nearer, const glm::dvec4& eye)
+bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
 {
+    ++test_count_;
+    const Sure nearer = heights_.nearer(f, g);
+    if (nearer == Sure::no)
+        return false;
     const Shared shared = has_images_ ? images_.shared(f, g) : Shared::unknown;
     if (shared == Shared::nothing)
         return false;

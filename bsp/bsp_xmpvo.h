@@ -83,9 +83,8 @@ private:
     void look_at_faces(const glm::dvec4& eye);
     std::uint8_t role(std::uint32_t face, const glm::dvec4& eye) const;
     void set_boxes(std::uint32_t face, const ProjectionCharts& charts);
-    // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists; `nearer`: what is
-    // known of that.
-    bool obstructs(std::uint32_t f, std::uint32_t g, Sure nearer, const glm::dvec4& eye);
+    // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
+    bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);

@@ -29,13 +29,6 @@ public:
     /// Whether the images of two faces share an area. Corners in common are known to be the same.
     Shared shared(std::uint32_t f, std::uint32_t g) const;
 
-    /// Has fetched what `shared` reads of a face.
-    void prefetch(std::uint32_t face) const
-    {
-        for (std::uint32_t corner : corners_.of(face))
-            __builtin_prefetch(images_.data() + corner);
-    }
-
     std::size_t bytes() const
     {
         return images_.capacity() * sizeof(glm::dvec2) + depths_.capacity() * sizeof(double);

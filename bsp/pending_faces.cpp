@@ -94,11 +94,11 @@ void PendingFaces::fill(const Grid& grid)
         each_list(grid, faces_[i], [&](std::size_t list) { entries_[lists_[list].end++] = faces_[i]; });
 }
 
-// Takes those that are gone out of the entries before `end`.
-void PendingFaces::clean(List& list, std::uint32_t end)
+// Takes those that are gone out of what the last search looked at.
+void PendingFaces::clean(List& list)
 {
-    std::uint32_t kept = end;
-    for (std::uint32_t i = end; i-- > list.begin;)
+    std::uint32_t kept = list.nearest;
+    for (std::uint32_t i = kept; i-- > list.begin;)
         if (is_gone_[entries_[i].face] == 0)
             entries_[--kept] = entries_[i];
     list.begin = kept;

@@ -65,8 +65,9 @@ public:
     /// The face's cell has been listed.
     void remove(std::uint32_t face) { is_gone_[face] = 1; }
 
-    /// Calls visit(face) for each pending one that face `face` may cover, once a chart at most: their boxes meet, not
-    /// all of the entry face is nearer, and the walk came to it before it left `face`.
+    /// Calls visit(face) for each pending one that face `face` may cover, once a chart at most, until it returns false:
+    /// their boxes meet, not all of the entry face is nearer, and the walk came to it before it left `face`. In each
+    /// square the nearest ones come first.
     template <class Visit>
     void search(std::uint32_t face, Visit&& visit);
 
@@ -77,6 +78,7 @@ private:
     static constexpr std::size_t most_squares = 64;
     // Entries of a list that searches look at before those that are gone are taken out.
     static constexpr std::uint32_t looks_between_cleanings = 64;
+    static constexpr std::uint32_t looks_at_once = 16;
 
     using Number = std::uint16_t;
     static constexpr Number most = 0xffff;
@@ -170,6 +172,7 @@ private:
     struct List {
         std::uint32_t begin = 0; // in entries_; moves as faces are gone
         std::uint32_t end = 0;
+        std::uint32_t nearest = 0; // the end of what the last search looked at
         std::uint32_t looks = 0;
     };
     // Of the faces in one chart.
@@ -184,7 +187,7 @@ private:
 
     static Grid grid(const Extent& extent, std::size_t first_list);
     void fill(const Grid& grid);
-    void clean(List& list, std::uint32_t end);
+    void clean(List& list);
 
     // The lists that a face is in.
     template <class Visit>
@@ -201,23 +204,8 @@ private:
                 visit(grid.list(column, row));
     }
 
-    // The lists that a search goes through.
     template <class Visit>
-    void each_searched(std::uint32_t face, Visit&& visit) const
-    {
-        for (std::size_t chart = 0; chart < charts(); ++chart) {
-            const Sought& sought = sought_[face * charts() + chart];
-            if (!sought.present)
-                continue;
-            const Grid& grid = grids_[chart];
-            const std::uint32_t left = grid.column(sought.left), right = grid.column(sought.right);
-            const std::uint32_t low = grid.row(sought.low), high = grid.row(sought.high);
-            visit(grid, sought, grid.first_list, left, low); // as in the first square: no other counts
-            for (std::uint32_t row = low; row <= high; ++row)
-                for (std::uint32_t column = left; column <= right; ++column)
-                    visit(grid, sought, grid.list(column, row), column, row);
-        }
-    }
+    bool look_through(List& list, const Query& query, Visit&& visit);
 
     std::size_t charts() const { return grids_.size(); }
 
@@ -226,8 +214,6 @@ private:
     std::vector<Entry> entries_;
     std::vector<std::uint8_t> is_gone_; // a face
     std::vector<Sought> sought_;        // a face in each chart
-
-    std::vector<std::uint32_t> found_; // in one list
 
     // Of one chart, while it is filled.
     std::vector<Entry> faces_;
@@ -289,30 +275,55 @@ void PendingFaces::reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& 
 }
 
 template <class Visit>
-void PendingFaces::search(std::uint32_t face, Visit&& visit)
+bool PendingFaces::look_through(List& list, const Query& query, Visit&& visit)
 {
-    each_searched(face, [&](const Grid& grid, const Sought by, std::size_t index, std::uint32_t column,
-                            std::uint32_t row) {
-        List& list = lists_[index];
-        const Query query = grid.query(by, column, row);
-        const Entry* const entries = entries_.data();
-        const std::uint8_t* const is_gone = is_gone_.data();
-        if (found_.size() < list.end - list.begin)
-            found_.resize(list.end - list.begin);
-        std::uint32_t* const found = found_.data();
+    const Entry* const entries = entries_.data();
+    const std::uint8_t* const is_gone = is_gone_.data();
+    // Searches come nearer and nearer, mostly.
+    std::uint32_t at = std::max(list.nearest, list.begin);
+    while (at < list.end && entries[at].most_minus_farthest <= query.most_minus_nearest)
+        ++at;
+    while (at > list.begin && entries[at - 1].most_minus_farthest > query.most_minus_nearest)
+        --at;
+    list.nearest = at;
+    list.looks += at - list.begin;
+    while (at > list.begin) {
+        const std::uint32_t stop = at - list.begin > looks_at_once ? at - looks_at_once : list.begin;
+        std::array<std::uint32_t, looks_at_once> found;
         std::size_t count = 0;
-        std::uint32_t at = list.begin;
         // Without branches on what an entry is like: it is as good as random.
-        for (; at < list.end && entries[at].most_minus_farthest <= query.most_minus_nearest; ++at) {
-            found[count] = entries[at].face;
-            count += static_cast<std::size_t>(query.holds(entries[at]) & (is_gone[entries[at].face] == 0));
+        while (at > stop) {
+            const Entry& entry = entries[--at];
+            found[count] = entry.face;
+            count += static_cast<std::size_t>(query.holds(entry) & (is_gone[entry.face] == 0));
         }
         for (std::size_t i = 0; i < count; ++i)
-            visit(found[i]);
-        list.looks += at - list.begin;
-        if (list.looks >= looks_between_cleanings)
-            clean(list, at);
-    });
+            if (!visit(found[i]))
+                return false;
+    }
+    if (list.looks >= looks_between_cleanings)
+        clean(list);
+    return true;
+}
+
+template <class Visit>
+void PendingFaces::search(std::uint32_t face, Visit&& visit)
+{
+    for (std::size_t chart = 0; chart < charts(); ++chart) {
+        const Sought by = sought_[face * charts() + chart];
+        if (!by.present)
+            continue;
+        const Grid& grid = grids_[chart];
+        const std::uint32_t left = grid.column(by.left), right = grid.column(by.right);
+        const std::uint32_t low = grid.row(by.low), high = grid.row(by.high);
+        for (std::uint32_t row = low; row <= high; ++row)
+            for (std::uint32_t column = left; column <= right; ++column)
+                if (!look_through(lists_[grid.list(column, row)], grid.query(by, column, row), visit))
+                    return;
+        // As in the first square: there all count.
+        if (!look_through(lists_[grid.first_list], grid.query(by, left, low), visit))
+            return;
+    }
 }
 
 } // namespace visorder
