@@ -254,11 +254,13 @@ private:
         std::uint32_t covered = none;
         for (std::uint32_t face = begin; face < end && covered == none; ++face)
             if ((sorter_.roles_[face] & exit_role) != 0)
-                sorter_.pending_.search(face, [&](std::uint32_t entry) {
-                    if (sorter_.obstructs(face, entry, eye_))
-                        covered = entry;
-                    return covered == none;
-                });
+                sorter_.pending_.search(
+                    face, [&](std::uint32_t entry) { sorter_.heights_.prefetch(entry); },
+                    [&](std::uint32_t entry) {
+                        if (sorter_.obstructs(face, entry, eye_))
+                            covered = entry;
+                        return covered == none;
+                    });
         if (covered != none) {
             ++sorter_.relation_count_;
             std::uint32_t& head = sorter_.waiting_head_[sorter_.boundary_cells_.of_face(covered)];

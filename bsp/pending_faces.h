@@ -67,9 +67,9 @@ public:
 
     /// Calls visit(face) for each pending one that face `face` may cover, once a chart at most, until it returns false:
     /// their boxes meet, not all of the entry face is nearer, and the walk came to it before it left `face`. In each
-    /// square the nearest ones come first.
-    template <class Visit>
-    void search(std::uint32_t face, Visit&& visit);
+    /// square the nearest ones come first. Some time before, it calls prepare(face).
+    template <class Prepare, class Visit>
+    void search(std::uint32_t face, Prepare&& prepare, Visit&& visit);
 
     std::size_t bytes() const;
 
@@ -204,8 +204,8 @@ private:
                 visit(grid.list(column, row));
     }
 
-    template <class Visit>
-    bool look_through(List& list, const Query& query, Visit&& visit);
+    template <class Prepare, class Visit>
+    bool look_through(List& list, const Query& query, Prepare&& prepare, Visit&& visit);
 
     std::size_t charts() const { return grids_.size(); }
 
@@ -274,8 +274,8 @@ void PendingFaces::reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& 
     is_gone_.assign(count, 0);
 }
 
-template <class Visit>
-bool PendingFaces::look_through(List& list, const Query& query, Visit&& visit)
+template <class Prepare, class Visit>
+bool PendingFaces::look_through(List& list, const Query& query, Prepare&& prepare, Visit&& visit)
 {
     const Entry* const entries = entries_.data();
     const std::uint8_t* const is_gone = is_gone_.data();
@@ -297,6 +297,7 @@ bool PendingFaces::look_through(List& list, const Query& query, Visit&& visit)
             found[count] = entry.face;
             count += static_cast<std::size_t>(query.holds(entry) & (is_gone[entry.face] == 0));
         }
+        std::for_each_n(found.begin(), count, prepare);
         for (std::size_t i = 0; i < count; ++i)
             if (!visit(found[i]))
                 return false;
@@ -306,8 +307,8 @@ bool PendingFaces::look_through(List& list, const Query& query, Visit&& visit)
     return true;
 }
 
-template <class Visit>
-void PendingFaces::search(std::uint32_t face, Visit&& visit)
+template <class Prepare, class Visit>
+void PendingFaces::search(std::uint32_t face, Prepare&& prepare, Visit&& visit)
 {
     for (std::size_t chart = 0; chart < charts(); ++chart) {
         const Sought by = sought_[face * charts() + chart];
@@ -318,10 +319,10 @@ void PendingFaces::search(std::uint32_t face, Visit&& visit)
         const std::uint32_t low = grid.row(by.low), high = grid.row(by.high);
         for (std::uint32_t row = low; row <= high; ++row)
             for (std::uint32_t column = left; column <= right; ++column)
-                if (!look_through(lists_[grid.list(column, row)], grid.query(by, column, row), visit))
+                if (!look_through(lists_[grid.list(column, row)], grid.query(by, column, row), prepare, visit))
                     return;
         // As in the first square: there all count.
-        if (!look_through(lists_[grid.first_list], grid.query(by, left, low), visit))
+        if (!look_through(lists_[grid.first_list], grid.query(by, left, low), prepare, visit))
             return;
     }
 }
