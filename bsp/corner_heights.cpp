@@ -2,6 +2,7 @@
 
 #include "scene/face_planes.h"
 
+#include <algorithm>
 #include <oneapi/tbb/parallel_for.h>
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -21,7 +22,7 @@ CornerHeights::CornerHeights(const Scene& scene, std::span<const CellFace> faces
     : corners_(corners)
 {
     records_.resize(faces.size());
-    if (scene.is_surface()) {
+    if (scene.is_surface() || corners.points().empty()) {
         std::fill(records_.begin(), records_.end(), Record{});
         return;
     }

@@ -17,7 +17,7 @@ enum class Sure { no, yes, unknown };
 /// the eye: no eye changes that. Immutable.
 class CornerHeights {
 public:
-    /// Of a surface, nothing is known. `corners` must live as long as this.
+    /// Of a surface, and where no face has an area, nothing is known. `corners` must live as long as this.
     CornerHeights(const Scene& scene, std::span<const CellFace> faces, const FaceCorners& corners);
 
     /// Whether exit face f is nearer than entry face g on the rays that meet both, if there are any. Sure where all of
