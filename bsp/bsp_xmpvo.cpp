@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint8_t exit_role = 1;
 constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
-constexpr std::uint16_t slab_count = 64;           // of the scene's depth
+constexpr std::uint16_t slab_count = 64; // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
 constexpr std::size_t prefetch_rows = 32;
 constexpr std::size_t prefetch_states = 12;
@@ -69,8 +69,8 @@ std::vector<std::uint8_t> with_area(const BspTree& tree)
 } // namespace
 
 // One frame. A cell's state holds, in the lowest `row` bits, its interior entry faces; then one bit if it has boundary
-// faces in the tree; above, for how many of its exit faces it waits: interior ones for the cell behind, boundary ones
-// for the walk. At zero it is ready, and waits in the queue to be listed.
+// faces in the tree; above, behind how many of its interior exit faces the cell is not listed. At zero it is ready, and
+// waits in the queue to be listed.
 template <int row, class State>
 class BspMerge {
 public:
@@ -463,18 +463,18 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(ranks_.first) + size_of(ranks_.last) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + corners_.bytes() +
-           heights_.bytes() + images_.bytes() + size_of(next_) + size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
+           size_of(ranks_.first) + size_of(ranks_.last) + size_of(is_listed_) + size_of(queue_) +
+           size_of(waiting_head_) + corners_.bytes() + heights_.bytes() + images_.bytes() + size_of(next_) +
+           size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
            size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const
 {
     const auto as_double = [](std::size_t count) { return static_cast<double>(count); };
-    return {{"nodes", as_double(tree_.node_count())},       {"splits", as_double(tree_.split_count())},
-            {"depth", as_double(tree_.depth())},
-            {"pair tests", as_double(test_count_)},         {"exact tests", as_double(exact_test_count_)},
-            {"relations", as_double(relation_count_)}};
+    return {{"nodes", as_double(tree_.node_count())},      {"splits", as_double(tree_.split_count())},
+            {"depth", as_double(tree_.depth())},           {"pair tests", as_double(test_count_)},
+            {"exact tests", as_double(exact_test_count_)}, {"relations", as_double(relation_count_)}};
 }
 
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)

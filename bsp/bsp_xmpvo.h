@@ -53,13 +53,12 @@ private:
 };
 
 /// BSP-XMPVO (Comba, Klosowski, Max, Mitchell, Silva, Williams 1999; Max, Williams, Silva 2000, section III): a
-/// topological sort of the cells over the relations across interior faces, merged with the walk of a BSP tree over the
-/// boundary faces from back to front. A cell is ready when all cells behind its interior exit faces are listed, and
-/// the walk has passed all its boundary exit faces. Where the walk comes to an entry face before its cell could be
-/// listed (the cell is partially projected), that face is pending: a ready cell is tested, exactly, against the pending
-/// faces that it may cover, and waits for the first that it does. Exact on every acyclic set of cells with planar
-/// faces, for every eye, and on surfaces, whose triangles are what is ordered: fragments of them that the tree makes
-/// are not.
+/// topological sort of the cells over the relations across interior faces, merged with the order in which the walk of a
+/// BSP tree over the boundary faces passes them from back to front. An entry face is pending until its cell is listed.
+/// A cell is ready when all cells behind its interior exit faces are listed; before it is listed, its boundary exit
+/// faces are tested against the pending faces that the walk came to before it left them, and it waits for the cell of
+/// one that they cover. Exact on every acyclic set of cells with planar faces, for every eye, and on surfaces, whose
+/// triangles are what is ordered: fragments of them that the tree makes are not.
 ///
 /// The tree is built once a scene. One `sort` at a time on one sorter; any number of sorters on one Scene.
 class BspXmpvo final : public Sorter {
@@ -70,8 +69,8 @@ public:
     Guarantee guarantee() const override { return Guarantee::exact; }
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
-    /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pending faces" (entry faces of partially
-    /// projected cells), "pair tests", how many of them were "exact tests", and the "relations" they found.
+    /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pair tests", of an exit face and a pending one,
+    /// how many of them were "exact tests", and the "relations" they found.
     std::vector<Statistic> statistics() const override;
 
 private:
@@ -101,8 +100,8 @@ private:
     LargeArray<std::uint16_t> large_state_;
 
     // A face of the tree each.
-    std::vector<std::uint8_t> roles_;        // an exit face, an entry face, or both
-    Ranks ranks_;                            // in the walk
+    std::vector<std::uint8_t> roles_; // an exit face, an entry face, or both
+    Ranks ranks_;                     // in the walk
     FaceImages images_;
     bool has_images_ = false; // from this eye
 

@@ -29,10 +29,7 @@ public:
     /// Whether the images of two faces share an area. Corners in common are known to be the same.
     Shared shared(std::uint32_t f, std::uint32_t g) const;
 
-    std::size_t bytes() const
-    {
-        return images_.capacity() * sizeof(glm::dvec2) + depths_.capacity() * sizeof(double);
-    }
+    std::size_t bytes() const { return images_.capacity() * sizeof(glm::dvec2) + depths_.capacity() * sizeof(double); }
 
 private:
     struct Polygon;

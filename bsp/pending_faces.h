@@ -106,8 +106,8 @@ private:
         Number high() const { return static_cast<Number>(most - most_minus_high); }
         Number farthest() const { return static_cast<Number>(most - most_minus_farthest); }
     };
-    // What entries of a list are asked for: their first six numbers less `from`, modulo 2^16, are to be at most `up_to`.
-    // Four numbers are in one, the first lowest.
+    // What entries of a list are asked for: their first six numbers less `from`, modulo 2^16, are to be at most
+    // `up_to`. Four numbers are in one, the first lowest.
     struct Query {
         std::uint64_t from;
         std::array<std::uint64_t, 2> up_to;
@@ -141,8 +141,13 @@ private:
         }
         Sought sought(const ImageBoxes::ImageBox& box, Number last_rank) const
         {
-            return {x.number(box.min.x),     y.number(box.min.y), x.number(box.max.x), y.number(box.max.y),
-                    depth.number(box.min.z), last_rank,           true};
+            return {x.number(box.min.x),
+                    y.number(box.min.y),
+                    x.number(box.max.x),
+                    y.number(box.max.y),
+                    depth.number(box.min.z),
+                    last_rank,
+                    true};
         }
         // Of the squares that two faces are both in, only the first counts: that where one of them begins.
         Query query(const Sought& by, std::uint32_t at_column, std::uint32_t at_row) const
@@ -234,7 +239,7 @@ inline bool PendingFaces::Query::holds(const Entry& entry) const
 inline bool PendingFaces::Query::holds(const Entry& entry) const
 {
     const std::array<Number, 6> numbers{
-        entry.left, entry.low, entry.most_minus_right, entry.most_minus_high, entry.most_minus_farthest,
+        entry.left,      entry.low, entry.most_minus_right, entry.most_minus_high, entry.most_minus_farthest,
         entry.first_rank};
     bool hold = true;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -265,7 +270,8 @@ void PendingFaces::reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& 
         const Grid& of_chart = grids_.emplace_back(grid(extent, lists_.size()));
         faces_.clear();
         for (std::uint32_t face = 0; face < count; ++face) {
-            sought_[face * all_charts + chart] = present(face) ? of_chart.sought(box(face), ranks.last[face]) : Sought{};
+            sought_[face * all_charts + chart] =
+                present(face) ? of_chart.sought(box(face), ranks.last[face]) : Sought{};
             if (is_entry(face) && present(face))
                 faces_.push_back(of_chart.entry(box(face), ranks.first[face], face));
         }
