@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <utility>
 
 namespace visorder {
@@ -317,7 +318,6 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     const std::span<const CellFace> faces = tree_.faces();
     const ProjectionCharts charts(scene_.bounds(), eye);
     roles_.resize(faces.size());
-    walk(eye);
     is_listed_.assign(boundary_cells_.count(), 0);
     waiting_head_.assign(boundary_cells_.count(), none);
     next_.resize(boundary_cells_.count());
@@ -439,8 +439,11 @@ bool BspXmpvo::sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& o
 void BspXmpvo::sort(const View& view, Order& order)
 {
     validate(view);
-    if (!scene_.is_surface())
-        signs_.evaluate(scene_, view.eye);
+    oneapi::tbb::parallel_invoke([&] { walk(view.eye); },
+                                 [&] {
+                                     if (!scene_.is_surface())
+                                         signs_.evaluate(scene_, view.eye);
+                                 });
     look_at_faces(view.eye);
     const bool complete = scene_.is_surface()                  ? sort_by<0>(small_state_, view.eye, order)
                           : scene_.adjacency().row_length == 4 ? sort_by<4>(small_state_, view.eye, order)

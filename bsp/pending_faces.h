@@ -9,6 +9,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <vector>
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -269,12 +271,14 @@ void PendingFaces::reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& 
                 extent.add(box(face));
         const Grid& of_chart = grids_.emplace_back(grid(extent, lists_.size()));
         faces_.clear();
-        for (std::uint32_t face = 0; face < count; ++face) {
-            sought_[face * all_charts + chart] =
-                present(face) ? of_chart.sought(box(face), ranks.last[face]) : Sought{};
+        for (std::uint32_t face = 0; face < count; ++face)
             if (is_entry(face) && present(face))
                 faces_.push_back(of_chart.entry(box(face), ranks.first[face], face));
-        }
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, count, 8192), [&](const auto& range) {
+            for (std::uint32_t face = range.begin(); face < range.end(); ++face)
+                sought_[face * all_charts + chart] =
+                    present(face) ? of_chart.sought(box(face), ranks.last[face]) : Sought{};
+        });
         fill(of_chart);
     }
     is_gone_.assign(count, 0);
