@@ -70,7 +70,8 @@ TEST(Tool, ComparesAndWritesTheResultFormat)
 {
     const TemporaryFolder folder;
     const std::string file = (folder / "result.json").string();
-    const Outcome outcome = run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --json " + file);
+    const Outcome outcome =
+        run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --layer-size 64x64 --json " + file);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto result = nlohmann::json::parse(read(file));
     for (const char* key : {"visorder", "machine", "scenes", "runs"})
@@ -124,7 +125,8 @@ TEST(Tool, TakesSurfaceScenes)
 {
     const TemporaryFolder folder;
     const std::string order = (folder / "order.txt").string();
-    const Outcome compared = run("compare --scene shells:500,cards:200,sphere:100,knot:300 --views 2 --hard");
+    const Outcome compared =
+        run("compare --scene shells:500,cards:200,sphere:100,knot:300 --views 2 --hard --layer-size 64x64");
     EXPECT_EQ(compared.code, 0) << compared.output;
     for (const char* part : {"0 boundary edges, surface\n", "pairs of cells overlap", "power            skipped"})
         EXPECT_NE(compared.output.find(part), std::string::npos) << part << "\n" << compared.output;
