@@ -71,7 +71,7 @@ TEST(Tool, ComparesAndWritesTheResultFormat)
     const TemporaryFolder folder;
     const std::string file = (folder / "result.json").string();
     const Outcome outcome =
-        run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --layer-size 64x64 --json " + file);
+        run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --size 64x64 --json " + file);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto result = nlohmann::json::parse(read(file));
     for (const char* key : {"visorder", "machine", "scenes", "runs"})
