@@ -166,7 +166,7 @@ void add_render_command(CLI::App& app, Command& chosen)
     command->add_option("--blending", arguments->blending_bits, "Bits of a channel: 32 or 16 (floats), or 8")
         ->capture_default_str();
     command->add_option("--table-scalars", arguments->table_scalars,
-                        "Entries of a table along each scalar (default: 512 in 2D, 128 in 3D)");
+                        "Entries of a table along each scalar (default: 512 in 2D, 256 in 3D)");
     command->add_option("--table-lengths", arguments->table_lengths, "Entries of a 3D table along the length")
         ->capture_default_str();
     command->add_flag("--even-lengths", arguments->even_lengths,

@@ -45,7 +45,7 @@ FunctionTextures::FunctionTextures(const Context& context, Integrator integrator
     : context_(&context), integrator_(integrator), options_(options), lengths_(lengths)
 {
     constexpr std::size_t scalars_2d = 512;
-    constexpr std::size_t scalars_3d = 128;
+    constexpr std::size_t scalars_3d = 256;
     if (options_.scalars == 0)
         options_.scalars = integrator == Integrator::preintegrated_2d ? scalars_2d : scalars_3d;
     if (!has_table(integrator))
