@@ -1,4 +1,5 @@
 #include "apps/commands.h"
+#include "apps/image_size.h"
 #include "apps/scene_source.h"
 #include "apps/sorter_options.h"
 #include "apps/view_choice.h"
@@ -32,7 +33,7 @@ struct Arguments {
     double unit_length = 0;
     std::vector<double> camera;
     double view_angle = 30;
-    std::vector<int> size{512};
+    std::string size = "512x512";
     int blending_bits = RenderOptions{}.blending_bits;
     std::size_t table_scalars = 0;
     std::size_t table_lengths = TableOptions{}.lengths;
@@ -51,14 +52,9 @@ bool is_exr(const std::filesystem::path& file)
     return false;
 }
 
-glm::ivec2 image_size(const std::vector<int>& size)
-{
-    return size.size() == 1 ? glm::ivec2(size[0]) : glm::ivec2(size[0], size[1]);
-}
-
 View chosen_view(const Arguments& arguments, const Scene& scene)
 {
-    const glm::ivec2 size = image_size(arguments.size);
+    const glm::ivec2 size = image_size(arguments.size, "--size");
     if (arguments.camera.empty())
         return view_of(*arguments.view, scene, size, arguments.view_angle);
     const std::vector<double>& c = arguments.camera;
@@ -144,9 +140,7 @@ void add_render_command(CLI::App& app, Command& chosen)
         ->excludes("--direction");
     command->add_option("--view-angle", arguments->view_angle, "Vertical, in degrees, of a perspective view")
         ->capture_default_str();
-    command->add_option("--size", arguments->size, "Pixels: a side of a square, or WIDTH,HEIGHT")
-        ->delimiter(',')
-        ->expected(1, 2);
+    command->add_option("--size", arguments->size, "Pixels, WxH")->capture_default_str();
     command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
         ->capture_default_str();
     add_sorter_options(*command, arguments->sorter_options);
@@ -166,7 +160,7 @@ void add_render_command(CLI::App& app, Command& chosen)
     command->add_option("--blending", arguments->blending_bits, "Bits of a channel: 32 or 16 (floats), or 8")
         ->capture_default_str();
     command->add_option("--table-scalars", arguments->table_scalars,
-                        "Entries of a table along each scalar (default: 512 in 2D, 128 in 3D)");
+                        "Entries of a table along each scalar (default: 1024 in 2D, 256 in 3D)");
     command->add_option("--table-lengths", arguments->table_lengths, "Entries of a 3D table along the length")
         ->capture_default_str();
     command->add_flag("--even-lengths", arguments->even_lengths,

@@ -28,11 +28,11 @@ struct TriangleSources {
 /// through the mesh longer or shorter, the more so the steeper the face.
 struct BoundarySlab {
     std::array<PointId, 3> face;
-    std::array<glm::ivec2, 3> at;   ///< in lattice steps
-    std::array<double, 3> depth;    ///< projective, of the face on the lattice
-    std::array<double, 3> missing;  ///< how much deeper the face is there in fact
-    std::array<double, 3> scalar;   ///< each multiplied by 1 - depth / D
-    bool entry;                     ///< whether rays enter the mesh there
+    std::array<glm::ivec2, 3> at;  ///< in lattice steps
+    std::array<double, 3> depth;   ///< projective, of the face on the lattice
+    std::array<double, 3> missing; ///< how much deeper the face is there in fact
+    std::array<double, 3> scalar;  ///< each multiplied by 1 - depth / D
+    bool entry;                    ///< whether rays enter the mesh there
 };
 
 /// The slabs of a cell's boundary faces that cover the centre of a pixel: of those where rays enter the mesh, or of

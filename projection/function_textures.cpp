@@ -22,12 +22,12 @@ void fill(const Context& context, GlObject& buffer, GlObject& texture, GLenum fo
     context.gl().TextureBuffer(texture.id(), format, buffer.id());
 }
 
-GlObject linear_texture(const Context& context, GLenum target)
+GlObject table_texture(const Context& context, GLenum target, GLint filter)
 {
     GlObject texture(context, GlKind::texture, target);
     const GlFunctions& gl = context.gl();
-    gl.TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, filter);
+    gl.TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, filter);
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         gl.TextureParameteri(texture.id(), axis, GL_CLAMP_TO_EDGE);
     return texture;
@@ -44,8 +44,8 @@ FunctionTextures::FunctionTextures(const Context& context, Integrator integrator
                                    const WayLengths& lengths)
     : context_(&context), integrator_(integrator), options_(options), lengths_(lengths)
 {
-    constexpr std::size_t scalars_2d = 512;
-    constexpr std::size_t scalars_3d = 128;
+    constexpr std::size_t scalars_2d = 1024;
+    constexpr std::size_t scalars_3d = 256;
     if (options_.scalars == 0)
         options_.scalars = integrator == Integrator::preintegrated_2d ? scalars_2d : scalars_3d;
     if (!has_table(integrator))
@@ -70,7 +70,9 @@ void FunctionTextures::set(const OpticalPieces& pieces)
     if (integrator_ == Integrator::preintegrated_2d) {
         const std::vector<glm::vec4> table = preintegrated_2d(pieces, options_.scalars, lengths_.mean);
         length_scale_ = 1 / lengths_.mean;
-        table_ = linear_texture(*context_, GL_TEXTURE_2D);
+        // The nearest of so many entries is right to far less than being linear in length is, and takes a fifth less
+        // time where software draws.
+        table_ = table_texture(*context_, GL_TEXTURE_2D, GL_NEAREST);
         gl.TextureStorage2D(table_.id(), 1, GL_RGBA32F, size, size);
         gl.TextureSubImage2D(table_.id(), 0, 0, 0, size, size, GL_RGBA, GL_FLOAT, table.data());
     }
@@ -79,7 +81,7 @@ void FunctionTextures::set(const OpticalPieces& pieces)
         const std::vector<glm::vec4> table = preintegrated_3d(pieces, options_.scalars, axis.lengths);
         const auto depth = static_cast<GLsizei>(options_.lengths);
         length_scale_ = axis.scale;
-        table_ = linear_texture(*context_, GL_TEXTURE_3D);
+        table_ = table_texture(*context_, GL_TEXTURE_3D, GL_LINEAR);
         gl.TextureStorage3D(table_.id(), 1, GL_RGBA32F, size, size, depth);
         gl.TextureSubImage3D(table_.id(), 0, 0, 0, 0, size, size, depth, GL_RGBA, GL_FLOAT, table.data());
     }

@@ -10,8 +10,8 @@ namespace visorder {
 
 /// The tables of the integrators that have any.
 struct TableOptions {
-    std::size_t scalars = 0; ///< entries along each scalar; 0: 512 in two dimensions, 128 in three
-    std::size_t lengths = 64; ///< entries along the length
+    std::size_t scalars = 0;         ///< entries along each scalar; 0: 1024 in two dimensions, 256 in three
+    std::size_t lengths = 32;        ///< entries along the length
     bool exponential_lengths = true; ///< finer for short ways; else even (see LengthAxis)
 };
 

@@ -31,7 +31,7 @@ OpticalPieces optical_pieces(const TransferFunction& function, double lowest, do
         return std::clamp(static_cast<float>((scalar - lowest) / range), -beyond, beyond);
     };
     const auto constant = [](const OpticalPoint& p, float begin, float end) {
-        return OpticalPieces::Piece{begin, end, static_cast<float>(p.extinction), 0, glm::vec4(p.colour, 0),
+        return OpticalPieces::Piece{begin,       end, static_cast<float>(p.extinction), 0, glm::vec4(p.colour, 0),
                                     glm::vec4(0)};
     };
     result.pieces.push_back(constant(points.front(), -beyond, scaled(points.front().scalar)));

@@ -23,7 +23,9 @@ std::size_t PlaneTriangles::make(std::span<const CellId> cells, std::byte* into,
             if (cell.second_half)
                 put(cell, record_kinds::quad_fourth);
         },
-        [&](CellId cell) { off_lattice.push_back({static_cast<std::uint32_t>(next - first), cell}); });
+        [&](CellId cell) {
+            off_lattice.push_back({static_cast<std::uint32_t>(next - first), cell});
+        });
     return static_cast<std::size_t>(next - first);
 }
 

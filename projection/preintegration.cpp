@@ -78,8 +78,7 @@ glm::dvec4 light_along(const OpticalPieces& pieces, double front, double back, d
 {
     glm::dvec3 light(0);
     double transmittance = 1;
-    visit_parts(pieces, front, back,
-                [&](const Part& part) { pass(light, transmittance, part.share * length, part); });
+    visit_parts(pieces, front, back, [&](const Part& part) { pass(light, transmittance, part.share * length, part); });
     return {light, 1 - transmittance};
 }
 

@@ -2,8 +2,8 @@
 
 #include "projection/integrator_shaders.h"
 #include "projection/near_cell.h"
-#include "projection/projector_shaders.h"
 #include "projection/plane_triangles.h"
+#include "projection/projector_shaders.h"
 #include "projection/silhouette_triangles.h"
 #include "projection/thick_triangles.h"
 #include "scene/error.h"
@@ -174,10 +174,15 @@ struct ProjectionRenderer::Stretch {
 
 ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scene, const TransferFunction& function,
                                        const RenderOptions& options)
-    : context_(&context), scene_(&checked(scene)), options_(checked(options)), lattice_(raster_lattice(context)),
-      triangle_program_(make_program(context, "cell projection", triangle_shaders(options.projector, options.integrator))),
+    : context_(&context),
+      scene_(&checked(scene)),
+      options_(checked(options)),
+      lattice_(raster_lattice(context)),
+      triangle_program_(
+          make_program(context, "cell projection", triangle_shaders(options.projector, options.integrator))),
       near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator))),
-      function_(make_textures(context, scene, options)), ring_(make_ring(context))
+      function_(make_textures(context, scene, options)),
+      ring_(make_ring(context))
 {
     const Context::Current current(context);
     const Mesh& mesh = scene.mesh();
@@ -379,8 +384,8 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
 
     start = Clock::now();
     const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
-    const TriangleSources sources{scene_,  &screen,  &visible, lattice_,
-                                  optics_, options_.integrator == Integrator::linear};
+    const TriangleSources sources{scene_,   &screen, &visible,
+                                  lattice_, optics_, options_.integrator == Integrator::linear};
     const std::unique_ptr<const CellTriangles> made = make_triangles(options_.projector, sources);
     const CellTriangles& triangles = *made;
     const std::size_t cells = order.back_to_front.size();

@@ -18,9 +18,9 @@ constexpr std::size_t optics_floats = 20;
 // Added to a place, in pixels, so that its coordinates are positive and their signs can say something else.
 constexpr float place_offset = 16384;
 
-// A triangle around a quad that is little larger, if there is one: the sides next to one of the quad's sides meet beyond
-// it. One triangle in place of two, and thickness is zero where the quad is not. (Of a quad, points 0 and 1 are opposite
-// corners, as are 2 and 3.)
+// A triangle around a quad that is little larger, if there is one: the sides next to one of the quad's sides meet
+// beyond it. One triangle in place of two, and thickness is zero where the quad is not. (Of a quad, points 0 and 1 are
+// opposite corners, as are 2 and 3.)
 std::optional<std::array<glm::vec2, 3>> triangle_around(const std::array<glm::ivec2, 4>& at, double pixels_a_step)
 {
     constexpr double most_added = 0.6;   // of the quad's area
@@ -61,8 +61,7 @@ std::optional<std::array<glm::vec2, 3>> triangle_around(const std::array<glm::iv
     const glm::dvec2 corner =
         (v[best] + best_way * before) * pixels_a_step + (along_before + along_after) * (margin / sine);
     const glm::dvec2 origin = glm::dvec2(at[0]) * pixels_a_step;
-    return std::array<glm::vec2, 3>{glm::vec2(origin + corner),
-                                    glm::vec2(origin + v[(best + 2) % 4] * pixels_a_step),
+    return std::array<glm::vec2, 3>{glm::vec2(origin + corner), glm::vec2(origin + v[(best + 2) % 4] * pixels_a_step),
                                     glm::vec2(origin + v[(best + 3) % 4] * pixels_a_step)};
 }
 
@@ -193,7 +192,9 @@ std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, std::byte* 
                 from_, cell.cell, [&](const BoundarySlab& slab) { writer.put_slab(slab); },
                 [&] { writer.put_cell(cell); });
         },
-        [&](CellId cell) { off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell}); });
+        [&](CellId cell) {
+            off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell});
+        });
     return writer.count;
 }
 

@@ -4,8 +4,8 @@
 
 namespace visorder {
 
-/// The triangles of Projector::silhouette: of each half of a cell's silhouette the cell's Thickness, as the shader reads
-/// it.
+/// The triangles of Projector::silhouette: of each half of a cell's silhouette the cell's Thickness, as the shader
+/// reads it.
 ///
 /// All is linear on triangles whose corners are on the lattice, where neighbours agree on it. What that displaces the
 /// mesh's boundary by is made good by thin slabs: beside a cell with a boundary face stands a triangle for the way

@@ -97,7 +97,9 @@ std::size_t ThickTriangles::make(std::span<const CellId> cells, std::byte* into,
                 from_, cell.cell, [&](const BoundarySlab& slab) { writer.put_slab(slab); },
                 [&] { writer.put_cell(cell); });
         },
-        [&](CellId cell) { off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell}); });
+        [&](CellId cell) {
+            off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell});
+        });
     return writer.count;
 }
 

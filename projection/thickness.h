@@ -12,9 +12,9 @@ namespace visorder {
 /// What a cell is at its thickest point: where its inner point is seen, or where the two edges of a quad cross. Shirley
 /// and Tuchman's triangles have it as a corner, and thickness falls from it to zero along the silhouette.
 struct ThickPoint {
-    glm::dvec2 at;                   ///< pixels from VisibleCell::points[0]
-    double front_depth, back_depth;  ///< projective, see Screen
-    double front_scalar, back_scalar; ///< each multiplied by 1 - depth / D
+    glm::dvec2 at;                                   ///< pixels from VisibleCell::points[0]
+    double front_depth, back_depth;                  ///< projective, see Screen
+    double front_scalar, back_scalar;                ///< each multiplied by 1 - depth / D
     std::array<double, 4> front_shares, back_shares; ///< of the cell's points in its two ends
 };
 

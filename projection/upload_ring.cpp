@@ -15,7 +15,9 @@ std::size_t aligned(std::size_t bytes)
 } // namespace
 
 UploadRing::UploadRing(const Context& context, std::size_t segment_bytes, std::size_t segments)
-    : context_(&context), segment_bytes_(aligned(segment_bytes)), buffer_(context, GlKind::buffer),
+    : context_(&context),
+      segment_bytes_(aligned(segment_bytes)),
+      buffer_(context, GlKind::buffer),
       fences_(segments, nullptr)
 {
     const GlFunctions& gl = context.gl();

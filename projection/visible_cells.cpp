@@ -29,9 +29,14 @@ constexpr int most_centres_tried = 6;
 
 VisibleCells::VisibleCells(const Scene& scene, std::span<const std::uint8_t> turned, const ScreenPoints& points,
                            const Screen& screen, const RasterLattice& lattice)
-    : vertices_(scene.mesh().vertices), turned_(turned), points_(points), first_(-screen.centre()),
-      last_(screen.size() - screen.centre() - 1), half_step_(lattice.steps / 2),
-      shift_(std::countr_zero(static_cast<unsigned>(lattice.steps))), mirrored_(screen.mirrors())
+    : vertices_(scene.mesh().vertices),
+      turned_(turned),
+      points_(points),
+      first_(-screen.centre()),
+      last_(screen.size() - screen.centre() - 1),
+      half_step_(lattice.steps / 2),
+      shift_(std::countr_zero(static_cast<unsigned>(lattice.steps))),
+      mirrored_(screen.mirrors())
 {
 }
 

@@ -121,6 +121,49 @@ TEST(Tool, InspectsAndLists)
     EXPECT_NE(listed.output.find("Williams 1992"), std::string::npos) << listed.output;
 }
 
+TEST(Tool, Renders)
+{
+    const TemporaryFolder folder;
+    for (const char* file : {"picture.png", "picture.exr"}) {
+        const std::string out = (folder / file).string();
+        const Outcome outcome = run("render --scene grid:500 --eye 3,2,1 --size 40x30 -o " + out);
+        ASSERT_EQ(outcome.code, 0) << outcome.output;
+        EXPECT_NE(outcome.output.find("40 x 30"), std::string::npos) << outcome.output;
+        EXPECT_TRUE(std::filesystem::exists(out));
+    }
+    const std::string out = (folder / "other.png").string();
+    const Outcome outcome = run("render --scene grid:500 --camera 3,2,1,0,0,0,0,1,0 --size 16x16 --projector planes "
+                                "--integrator exponential --transfer steps --blending 16 --gl osmesa -o " +
+                                out);
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+}
+
+TEST(Tool, RefusesToRenderWhatItCannot)
+{
+    const TemporaryFolder folder;
+    const std::string out = (folder / "picture.png").string();
+    const std::string render = "render --scene grid:500 --eye 3,2,1 -o " + out;
+    expect_one_line_and_code_2(render + " --size 0x5", "--size");
+    expect_one_line_and_code_2(render + " --size 1000000x5", "1000000");
+    expect_one_line_and_code_2(render + " --transfer nowhere.json", "nowhere.json");
+    expect_one_line_and_code_2(render + " --projector guess", "guess");
+    expect_one_line_and_code_2(render + " --integrator guess", "guess");
+    expect_one_line_and_code_2(render + " --blending 12", "12");
+    expect_one_line_and_code_2(render + " --whole", "subdivide");
+    expect_one_line_and_code_2(render + " --gl guess", "guess");
+    expect_one_line_and_code_2("render --scene grid:500 --eye 3,2,1 -o " + out + ".gif", ".gif");
+    const std::string function = (folder / "function.json").string();
+    const auto refused = [&](const std::string& points, const std::string& words) {
+        std::ofstream(function) << "{\"points\": [" + points + "]}";
+        expect_one_line_and_code_2(render + " --transfer " + function, words);
+    };
+    refused(
+        R"({"scalar": 1, "extinction": 1, "colour": [1, 1, 1]}, {"scalar": 0, "extinction": 1, "colour": [1, 1, 1]})",
+        "below");
+    refused(R"({"scalar": 1, "extinction": -1, "colour": [1, 1, 1]})", "-1");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST(Tool, TakesSurfaceScenes)
 {
     const TemporaryFolder folder;

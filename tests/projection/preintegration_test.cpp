@@ -7,11 +7,8 @@
 namespace visorder {
 namespace {
 
-const TransferFunction with_jumps({{0.1, 0.5, {1, 0, 0}},
-                                   {0.4, 3, {0, 1, 0}},
-                                   {0.4, 0.2, {0, 0, 1}},
-                                   {0.6, 8, {1, 1, 0}},
-                                   {0.7, 0, {0, 0, 0}}});
+const TransferFunction with_jumps(
+    {{0.1, 0.5, {1, 0, 0}}, {0.4, 3, {0, 1, 0}}, {0.4, 0.2, {0, 0, 1}}, {0.6, 8, {1, 1, 0}}, {0.7, 0, {0, 0, 0}}});
 
 // By many thin layers.
 glm::dvec4 by_layers(double front, double back, double length)

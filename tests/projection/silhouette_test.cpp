@@ -87,8 +87,7 @@ CellValues values(const Seen& seen, const VisibleCell& cell)
 // Where the line through a place enters and leaves the cell, from the planes of the faces that cover the place.
 std::pair<double, double> interval(const Seen& seen, const glm::dvec2& place)
 {
-    std::pair<double, double> result{std::numeric_limits<double>::infinity(),
-                                     -std::numeric_limits<double>::infinity()};
+    std::pair<double, double> result{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (std::size_t out = 0; out < 4; ++out) {
         const std::size_t i = (out + 1) % 4;
         const std::size_t j = (out + 2) % 4;
