@@ -2,9 +2,8 @@
 #include "apps/image_size.h"
 #include "apps/progress.h"
 #include "apps/scene_source.h"
-#include "bench/image_file.h"
+#include "bench/layer_pictures.h"
 #include "bench/layer_truth.h"
-#include "bench/painting.h"
 #include "layering/layers_sorter.h"
 #include "scene/error.h"
 #include "scene/face_loop.h"
@@ -12,10 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 #include <memory>
 #include <numbers>
 
@@ -150,45 +147,6 @@ bool check_frames(const Scene& scene, const Mesh& mesh, const Arguments& argumen
     return right && sum.wrong == 0 && sum.missed == 0;
 }
 
-// Hues as far apart as can be from one to the next; grey where there is no proof.
-std::vector<glm::dvec3> colours_of(const Layers& layers)
-{
-    std::vector<glm::dvec3> colours(layers.layer.size(), glm::dvec3(0.6));
-    for (std::size_t item = 0; item < colours.size(); ++item)
-        if (layers.layer[item] != 0) {
-            const double hue = std::fmod(0.02 + 0.618034 * (layers.layer[item] - 1), 1.0);
-            for (int k = 0; k < 3; ++k)
-                colours[item][k] =
-                    0.92 - 0.6 * std::clamp(2 - std::abs(std::fmod(6 * hue + 5 - 2 * k, 6.0) - 3), 0.0, 1.0);
-        }
-    for (const Layers::Unproven& unproven : layers.unproven)
-        colours[unproven.item] = glm::dvec3(0.6);
-    return colours;
-}
-
-// All layers in colour from the view and turned around, and each layer alone (the paper's Fig. 3).
-int write_pictures(const Scene& scene, const Mesh& mesh, LayersSorter& sorter, glm::ivec2 size,
-                   const std::filesystem::path& folder)
-{
-    std::filesystem::create_directories(folder);
-    Order order, turned;
-    const View view = frame_view(scene, 0.08, size), from_behind = frame_view(scene, 0.58, size);
-    sorter.sort(from_behind, turned);
-    sorter.sort(view, order);
-    const Layers layers = sorter.layers();
-    const std::vector<glm::dvec3> colours = colours_of(layers);
-    const PngStyle as_they_are{.to_srgb = false};
-    write_png(paint(mesh, order.back_to_front, view, colours), folder / "layers.png", as_they_are);
-    write_png(paint(mesh, turned.back_to_front, from_behind, colours), folder / "turned.png", as_they_are);
-    for (std::uint32_t layer = 1; layer <= layers.count; ++layer) {
-        std::vector<CellId> alone;
-        std::copy_if(order.back_to_front.begin(), order.back_to_front.end(), std::back_inserter(alone),
-                     [&](CellId cell) { return layers.layer[cell] == layer; });
-        write_png(paint(mesh, alone, view, colours), folder / fmt::format("layer-{:03}.png", layer), as_they_are);
-    }
-    return static_cast<int>(layers.count);
-}
-
 int run(const Arguments& arguments)
 {
     std::vector<glm::ivec2> sizes;
@@ -225,7 +183,8 @@ int run(const Arguments& arguments)
         }
     progress.show("pictures");
     LayersSorter sorter(scene, LayerVariant::blocked, platform, sizes.back(), arguments.block);
-    const int pictures = write_pictures(scene, mesh, sorter, sizes.back(), arguments.folder);
+    const std::uint32_t pictures = write_layer_pictures(mesh, sorter, frame_view(scene, 0.08, sizes.back()),
+                                                        frame_view(scene, 0.58, sizes.back()), arguments.folder);
 
     std::string header;
     for (const glm::ivec2 size : sizes)

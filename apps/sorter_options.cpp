@@ -1,6 +1,7 @@
 #include "apps/sorter_options.h"
 
 #include "apps/image_size.h"
+#include "scene/error.h"
 
 #include <map>
 #include <string>
@@ -20,9 +21,16 @@ void add_sorter_options(CLI::App& command, SorterOptions& options)
     command.add_flag("--windows", options.newell_windows, "Of newell: a list for each of several windows of the image");
     command.add_option("--bsp-seed", options.bsp_seed, "Of bsp-xmpvo: of the samples it takes splitting planes from")
         ->capture_default_str();
-    command.add_option_function<std::string>(
-        "--layer-size", [&options](const std::string& text) { options.layer_size = image_size(text, "--layer-size"); },
-        "Of layers* and xmpvo-layered: pixels of the image they look at, WxH (default: the view's)");
+    const auto set_layer_size = [&options](const std::string& text) {
+        try {
+            options.layer_size = image_size(text, "--layer-size");
+        } catch (const InputError& error) {
+            throw CLI::ValidationError(error.what());
+        }
+    };
+    command.add_option_function<std::string>("--layer-size", set_layer_size,
+                                             "Of layers, layers-blocked, layers-compute and xmpvo-layered: pixels of "
+                                             "their image, WxH (default: the view's)");
     command.add_option("--layer-block", options.layer_block, "Of layers-blocked: pixels of a block's side")
         ->capture_default_str()
         ->check(CLI::IsMember({32, 64, 128}));

@@ -1,5 +1,6 @@
 #include "bench/report.h"
 
+#include "graphics/context.h"
 #include "scene/concurrency.h"
 #include "version.h"
 
@@ -154,6 +155,11 @@ Machine this_machine()
             machine.cpu = line.substr(line.find(':') + 2);
             break;
         }
+    try {
+        machine.gl_renderer = Context().renderer();
+    } catch (const GraphicsError&) {
+        machine.gl_renderer = "none";
+    }
     return machine;
 }
 

@@ -10,7 +10,7 @@ namespace visorder {
 struct Machine {
     std::string cpu;
     int threads;
-    std::string gl_renderer; ///< "none" where nothing was drawn
+    std::string gl_renderer; ///< "none" where there is no OpenGL
 };
 Machine this_machine();
 

@@ -1,15 +1,17 @@
 #include "bsp/bsp_xmpvo.h"
 
-#include "scene/face_loop.h"
+#include "scene/face_overlap.h"
 #include "sorting/registry.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 #include <utility>
 
 namespace visorder {
@@ -19,8 +21,7 @@ namespace {
 constexpr std::uint8_t exit_role = 1;
 constexpr std::uint8_t entry_role = 2;
 constexpr std::uint32_t none = 0xffffffffu;
-constexpr std::size_t faces_between_lists = 1024; // that the walk passes before cells that are ready are listed
-constexpr std::uint16_t slab_count = 32;          // of the scene's depth
+constexpr std::uint16_t slab_count = 64; // of the scene's depth
 constexpr std::uint16_t no_slab = slab_count;
 constexpr std::size_t prefetch_rows = 32;
 constexpr std::size_t prefetch_states = 12;
@@ -58,25 +59,19 @@ private:
     double slabs_per_unit_ = 0;
 };
 
-// The distinct points of a face with area, as face_overlap wants them: the first three span its plane. `turn` is left
-// to the eye.
-void set_points(const Scene& scene, const CellFace& face, SeenFace& seen)
+std::vector<std::uint8_t> with_area(const BspTree& tree)
 {
-    for (PointId v : boundary_loop(scene.mesh(), face)) {
-        const glm::dvec3& point = scene.mesh().points[v];
-        const auto end = seen.points.begin() + seen.count;
-        if (std::find(seen.points.begin(), end, point) == end)
-            seen.points[static_cast<std::size_t>(seen.count++)] = point;
-    }
-    while (collinear(seen.points[0], seen.points[1], seen.points[2]))
-        std::rotate(seen.points.begin(), seen.points.begin() + 1, seen.points.begin() + seen.count);
+    std::vector<std::uint8_t> has_area(tree.faces().size());
+    for (std::size_t i = 0; i < has_area.size(); ++i)
+        has_area[i] = tree.group_counts()[i] > 0;
+    return has_area;
 }
 
 } // namespace
 
 // One frame. A cell's state holds, in the lowest `row` bits, its interior entry faces; then one bit if it has boundary
-// faces in the tree; above, for how many of its exit faces it waits: interior ones for the cell behind, boundary ones
-// for the walk. At zero it is ready, and waits in the queue to be listed.
+// faces in the tree; above, behind how many of its interior exit faces the cell is not listed. At zero it is ready, and
+// waits in the queue to be listed.
 template <int row, class State>
 class BspMerge {
 public:
@@ -94,15 +89,6 @@ public:
     std::size_t run()
     {
         count();
-        std::size_t passed = 0;
-        sorter_.tree_.walk(eye_, [&](std::span<const std::uint32_t> group) {
-            pass(group);
-            passed += group.size();
-            if (passed >= faces_between_lists) {
-                list();
-                passed = 0;
-            }
-        });
         list();
         return listed_;
     }
@@ -130,45 +116,38 @@ private:
         } else {
             std::fill_n(state_, cells, State{0});
         }
-        for (std::uint32_t face = 0; face < sorter_.roles_.size(); ++face)
-            if (sorter_.roles_[face] != 0) {
-                const State more = (sorter_.roles_[face] & exit_role) != 0 ? one : State{0};
-                State& state = state_[owner(face)];
-                state = static_cast<State>((state + more) | at_boundary);
-            }
+        for (std::size_t i = 0; i < sorter_.boundary_cells_.count(); ++i) {
+            State& state = state_[owner(sorter_.boundary_cells_.faces(i).first)];
+            state = static_cast<State>(state | at_boundary);
+        }
         // A boundary cell can be there twice: when it is ready, and when it may be listed.
         sorter_.queue_.resize(cells + sorter_.boundary_cells_.count() + 1);
         CellId* const queue = sorter_.queue_.data();
         for (CellId cell = 0; cell < cells; ++cell) {
+            if (cell + 8 <= cells && none_of_eight_ready(state_ + cell)) {
+                cell += 7;
+                continue;
+            }
             queue[ready_] = cell;
             ready_ += ready(state_[cell]);
         }
     }
 
-    bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
-
-    // The walk has come to some faces that are in one plane or in no order: first what may be covered, then what may
-    // cover.
-    void pass(std::span<const std::uint32_t> group)
+    // Few cells are ready at first: states of one byte are passed over eight at a time.
+    static bool none_of_eight_ready(const State* states)
     {
-        for (std::uint32_t face : group) {
-            if ((sorter_.roles_[face] & entry_role) == 0 ||
-                sorter_.groups_left_[face] != sorter_.tree_.group_counts()[face])
-                continue;
-            const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_face(face);
-            if (is_listed(boundary_cell))
-                continue;
-            sorter_.pending_.add(face);
-            ++sorter_.pending_count_;
+        if constexpr (sizeof(State) > 1 || row == 0) {
+            return false;
+        } else {
+            std::uint64_t eight;
+            std::memcpy(&eight, states, sizeof eight);
+            // The counts, three bits each: none is zero if adding 7 to every one carries out of all of them.
+            const std::uint64_t counts = eight >> (row + 1) & 0x0707070707070707u;
+            return ((counts + 0x0707070707070707u) & 0x0808080808080808u) == 0x0808080808080808u;
         }
-        for (std::uint32_t face : group)
-            if (--sorter_.groups_left_[face] == 0 && (sorter_.roles_[face] & exit_role) != 0) {
-                State& state = state_[owner(face)];
-                state = static_cast<State>(state - one);
-                sorter_.queue_[ready_] = owner(face);
-                ready_ += ready(state);
-            }
     }
+
+    bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
 
     // Lists the cells that are ready, and those that become so: cells with boundary exit faces last and farthest first,
     // when most of what they may cover has been listed.
@@ -257,6 +236,9 @@ private:
     void list_boundary_cell(std::uint32_t boundary_cell)
     {
         sorter_.is_listed_[boundary_cell] = 1;
+        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
+        for (std::uint32_t face = begin; face < end; ++face)
+            sorter_.pending_.remove(face);
         std::uint32_t waiting = std::exchange(sorter_.waiting_head_[boundary_cell], none);
         while (waiting != none) {
             const std::uint32_t next = sorter_.next_[waiting];
@@ -266,19 +248,20 @@ private:
     }
 
     // A ready cell that covers no pending face goes back to the queue to be listed; else it waits for the cell of one
-    // that it covers.
+    // that it covers: a near one, which is likely to be listed last.
     void look_for_covered(std::uint32_t boundary_cell)
     {
         const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
-        const auto listed = [&](std::uint32_t other) { return is_listed(other); };
         std::uint32_t covered = none;
         for (std::uint32_t face = begin; face < end && covered == none; ++face)
             if ((sorter_.roles_[face] & exit_role) != 0)
-                sorter_.pending_.search(face, listed, [&](std::uint32_t entry) {
-                    if (sorter_.obstructs(face, entry, eye_))
-                        covered = entry;
-                    return covered == none;
-                });
+                sorter_.pending_.search(
+                    face, [&](std::uint32_t entry) { sorter_.heights_.prefetch(entry); },
+                    [&](std::uint32_t entry) {
+                        if (sorter_.obstructs(face, entry, eye_))
+                            covered = entry;
+                        return covered == none;
+                    });
         if (covered != none) {
             ++sorter_.relation_count_;
             std::uint32_t& head = sorter_.waiting_head_[sorter_.boundary_cells_.of_face(covered)];
@@ -320,16 +303,14 @@ BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells)
 }
 
 BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
-    : scene_(scene), tree_(scene, seed), boundary_cells_(tree_.faces(), scene.cell_count())
+    : scene_(scene),
+      tree_(scene, seed),
+      boundary_cells_(tree_.faces(), scene.cell_count()),
+      corners_(scene.mesh(), tree_.faces(), with_area(tree_)),
+      heights_(scene, tree_.faces(), corners_),
+      images_(corners_)
 {
-    if (!scene.is_surface())
-        scene.face_planes();
     scene.overlapping_cells();
-    seen_.resize(tree_.faces().size());
-    oneapi::tbb::parallel_for(std::size_t{0}, seen_.size(), [&](std::size_t i) {
-        if (tree_.group_counts()[i] > 0)
-            set_points(scene, tree_.faces()[i], seen_[i]);
-    });
 }
 
 void BspXmpvo::look_at_faces(const glm::dvec4& eye)
@@ -337,7 +318,6 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     const std::span<const CellFace> faces = tree_.faces();
     const ProjectionCharts charts(scene_.bounds(), eye);
     roles_.resize(faces.size());
-    groups_left_.assign(tree_.group_counts().begin(), tree_.group_counts().end());
     is_listed_.assign(boundary_cells_.count(), 0);
     waiting_head_.assign(boundary_cells_.count(), none);
     next_.resize(boundary_cells_.count());
@@ -345,35 +325,66 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     deferred_.assign(slab_count, none);
     boxes_.reset(faces.size(), charts.count());
     const Depth depth(scene_.bounds(), eye);
+    has_images_ = charts.has_images();
+    if (has_images_)
+        images_.project(charts);
     oneapi::tbb::parallel_for(
         oneapi::tbb::blocked_range<std::size_t>(0, boundary_cells_.count(), 1024), [&](const auto& range) {
             for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
                 slabs_[cell] = no_slab;
                 const auto [begin, end] = boundary_cells_.faces(cell);
                 for (std::uint32_t i = begin; i < end; ++i) {
-                    roles_[i] = groups_left_[i] == 0 ? 0 : role(i, eye);
+                    roles_[i] = tree_.group_counts()[i] == 0 ? 0 : role(i, eye);
                     if (roles_[i] == 0)
                         continue;
-                    for (int chart = 0; chart < charts.count(); ++chart)
-                        if (const auto box = charts.box(seen_[i].vertices(), chart))
-                            boxes_.set(i, chart, *box);
-                    if ((roles_[i] & exit_role) != 0)
-                        slabs_[cell] = slabs_[cell] == no_slab ? depth.slab(seen_[i].points[0])
-                                                               : std::max(slabs_[cell], depth.slab(seen_[i].points[0]));
+                    if (has_images_)
+                        boxes_.set(i, 0, images_.box(i));
+                    else
+                        set_boxes(i, charts);
+                    if ((roles_[i] & exit_role) != 0) {
+                        const std::uint16_t slab = depth.slab(corners_.points()[corners_.of(i)[0]]);
+                        slabs_[cell] = slabs_[cell] == no_slab ? slab : std::max(slabs_[cell], slab);
+                    }
                 }
             }
         });
-    pending_.reset(boxes_, boundary_cells_.of_faces(),
-                   [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
-    pending_count_ = test_count_ = relation_count_ = 0;
+    pending_.reset(boxes_, ranks_, [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
+    test_count_ = exact_test_count_ = relation_count_ = 0;
 }
 
-std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye)
+void BspXmpvo::walk(const glm::dvec4& eye)
 {
-    SeenFace& seen = seen_[face];
-    seen.turn = side_of_plane(seen.points[0], seen.points[1], seen.points[2], eye);
+    const std::size_t faces = tree_.faces().size();
+    ranks_.last.assign(faces, 0);
+    ranks_.first.assign(faces, 0xffff);
+    const std::size_t groups = std::max<std::size_t>(tree_.node_count(), 1);
+    std::size_t group_count = 0;
+    tree_.walk(eye, [&](std::span<const std::uint32_t> group) {
+        const auto rank = static_cast<std::uint16_t>(group_count * 65536 / groups);
+        for (std::uint32_t face : group) {
+            ranks_.last[face] = rank;
+            ranks_.first[face] = std::min(ranks_.first[face], rank);
+        }
+        ++group_count;
+    });
+}
+
+void BspXmpvo::set_boxes(std::uint32_t face, const ProjectionCharts& charts)
+{
+    std::array<glm::dvec3, 4> points;
+    const FaceCorners::Corners& corners = corners_.of(face);
+    for (std::size_t k = 0; k < 4; ++k)
+        points[k] = corners_.points()[corners[k]];
+    const auto count = static_cast<std::size_t>(FaceCorners::count(corners));
+    for (int chart = 0; chart < charts.count(); ++chart)
+        if (const auto box = charts.box(std::span(points).first(count), chart))
+            boxes_.set(face, chart, *box);
+}
+
+std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye) const
+{
     if (scene_.is_surface())
-        return seen.turn == Sign::zero ? 0 : exit_role | entry_role;
+        return corners_.seen(face, eye).turn == Sign::zero ? 0 : exit_role | entry_role;
     const CellFace& of_cell = tree_.faces()[face];
     return (signs_.exit(of_cell.cell) >> of_cell.face & 1u) != 0    ? exit_role
            : (signs_.entry(of_cell.cell) >> of_cell.face & 1u) != 0 ? entry_role
@@ -382,20 +393,33 @@ std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye)
 
 bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
 {
+    ++test_count_;
+    const Sure nearer = heights_.nearer(f, g);
+    if (nearer == Sure::no)
+        return false;
+    const Shared shared = has_images_ ? images_.shared(f, g) : Shared::unknown;
+    if (shared == Shared::nothing)
+        return false;
     const CellId front = tree_.faces()[f].cell, back = tree_.faces()[g].cell;
     if (front == back)
         return false;
     if (!scene_.is_surface() && scene_.adjacency().joins(front, back))
         return false; // the face between them carries the relation
-    if (surely_not_nearer(seen_[f], seen_[g]))
-        return false;
-    ++test_count_;
-    const Overlap overlap = face_overlap(seen_[f], seen_[g], eye);
-    if (overlap != Overlap::nearer && (overlap != Overlap::coincident || scene_.is_surface()))
+    if (!(nearer == Sure::yes && shared == Shared::area) && !covers_exactly(f, g, eye))
         return false;
     const auto& overlapping = scene_.overlapping_cells();
     const std::pair<CellId, CellId> pair = std::minmax(front, back);
     return !std::binary_search(overlapping.begin(), overlapping.end(), pair);
+}
+
+bool BspXmpvo::covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye)
+{
+    const SeenFace front = corners_.seen(f, eye), back = corners_.seen(g, eye);
+    if (surely_not_nearer(front, back))
+        return false;
+    ++exact_test_count_;
+    const Overlap overlap = face_overlap(front, back, eye);
+    return overlap == Overlap::nearer || (overlap == Overlap::coincident && !scene_.is_surface());
 }
 
 template <int row, class State>
@@ -415,8 +439,11 @@ bool BspXmpvo::sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& o
 void BspXmpvo::sort(const View& view, Order& order)
 {
     validate(view);
-    if (!scene_.is_surface())
-        signs_.evaluate(scene_, view.eye);
+    oneapi::tbb::parallel_invoke([&] { walk(view.eye); },
+                                 [&] {
+                                     if (!scene_.is_surface())
+                                         signs_.evaluate(scene_, view.eye);
+                                 });
     look_at_faces(view.eye);
     const bool complete = scene_.is_surface()                  ? sort_by<0>(small_state_, view.eye, order)
                           : scene_.adjacency().row_length == 4 ? sort_by<4>(small_state_, view.eye, order)
@@ -439,16 +466,18 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(groups_left_) + size_of(is_listed_) + size_of(queue_) + size_of(waiting_head_) + size_of(seen_) +
-           size_of(next_) + size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
+           size_of(ranks_.first) + size_of(ranks_.last) + size_of(is_listed_) + size_of(queue_) +
+           size_of(waiting_head_) + corners_.bytes() + heights_.bytes() + images_.bytes() + size_of(next_) +
+           size_of(slabs_) + size_of(deferred_) + boxes_.bytes() + pending_.bytes() +
            size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const
 {
-    return {{"nodes", static_cast<double>(tree_.node_count())}, {"splits", static_cast<double>(tree_.split_count())},
-            {"depth", static_cast<double>(tree_.depth())},      {"pending faces", static_cast<double>(pending_count_)},
-            {"pair tests", static_cast<double>(test_count_)},   {"relations", static_cast<double>(relation_count_)}};
+    const auto as_double = [](std::size_t count) { return static_cast<double>(count); };
+    return {{"nodes", as_double(tree_.node_count())},      {"splits", as_double(tree_.split_count())},
+            {"depth", as_double(tree_.depth())},           {"pair tests", as_double(test_count_)},
+            {"exact tests", as_double(exact_test_count_)}, {"relations", as_double(relation_count_)}};
 }
 
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)

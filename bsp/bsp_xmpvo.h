@@ -1,11 +1,14 @@
 #pragma once
 
 #include "bsp/bsp_tree.h"
+#include "bsp/corner_heights.h"
+#include "bsp/face_corners.h"
+#include "bsp/face_images.h"
 #include "bsp/pending_faces.h"
-#include "scene/face_overlap.h"
 #include "scene/face_planes.h"
 #include "scene/large_array.h"
 #include "sorting/boundary_relations.h"
+#include "sorting/projection_charts.h"
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
 
@@ -25,7 +28,6 @@ public:
 
     std::size_t count() const { return first_face_.size() - 1; }
     std::uint32_t of_face(std::uint32_t face) const { return of_face_[face]; }
-    std::span<const std::uint32_t> of_faces() const { return of_face_; }
     /// Of a cell that is one of them.
     std::size_t of_cell(CellId cell) const
     {
@@ -51,13 +53,12 @@ private:
 };
 
 /// BSP-XMPVO (Comba, Klosowski, Max, Mitchell, Silva, Williams 1999; Max, Williams, Silva 2000, section III): a
-/// topological sort of the cells over the relations across interior faces, merged with the walk of a BSP tree over the
-/// boundary faces from back to front. A cell is ready when all cells behind its interior exit faces are listed, and
-/// the walk has passed all its boundary exit faces. Where the walk comes to an entry face before its cell could be
-/// listed (the cell is partially projected), that face is pending: a ready cell is tested, exactly, against the pending
-/// faces that it may cover, and waits for the first that it does. Exact on every acyclic set of cells with planar
-/// faces, for every eye, and on surfaces, whose triangles are what is ordered: fragments of them that the tree makes
-/// are not.
+/// topological sort of the cells over the relations across interior faces, merged with the order in which the walk of a
+/// BSP tree over the boundary faces passes them from back to front. An entry face is pending until its cell is listed.
+/// A cell is ready when all cells behind its interior exit faces are listed; before it is listed, its boundary exit
+/// faces are tested against the pending faces that the walk came to before it left them, and it waits for the cell of
+/// one that they cover. Exact on every acyclic set of cells with planar faces, for every eye, and on surfaces, whose
+/// triangles are what is ordered: fragments of them that the tree makes are not.
 ///
 /// The tree is built once a scene. One `sort` at a time on one sorter; any number of sorters on one Scene.
 class BspXmpvo final : public Sorter {
@@ -68,19 +69,22 @@ public:
     Guarantee guarantee() const override { return Guarantee::exact; }
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
-    /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pending faces" (entry faces of partially
-    /// projected cells), "pair tests" and the "relations" they found.
+    /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pair tests", of an exit face and a pending one,
+    /// how many of them were "exact tests", and the "relations" they found.
     std::vector<Statistic> statistics() const override;
 
 private:
     template <int row, class State>
     friend class BspMerge;
 
+    void walk(const glm::dvec4& eye);
     // What the eye makes of each of the tree's faces.
     void look_at_faces(const glm::dvec4& eye);
-    std::uint8_t role(std::uint32_t face, const glm::dvec4& eye);
+    std::uint8_t role(std::uint32_t face, const glm::dvec4& eye) const;
+    void set_boxes(std::uint32_t face, const ProjectionCharts& charts);
     // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
     bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
+    bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
@@ -89,14 +93,17 @@ private:
     const Scene& scene_;
     BspTree tree_;
     BoundaryCells boundary_cells_;
+    FaceCorners corners_;
+    CornerHeights heights_;
     FaceSigns signs_;
     LargeArray<std::uint8_t> small_state_;
     LargeArray<std::uint16_t> large_state_;
 
     // A face of the tree each.
-    std::vector<std::uint8_t> roles_;        // an exit face, an entry face, or both
-    std::vector<std::uint32_t> groups_left_; // to which the walk has not come
-    std::vector<SeenFace> seen_;             // of which each eye sets `turn`
+    std::vector<std::uint8_t> roles_; // an exit face, an entry face, or both
+    Ranks ranks_;                     // in the walk
+    FaceImages images_;
+    bool has_images_ = false; // from this eye
 
     // A boundary cell each.
     std::vector<std::uint8_t> is_listed_;
@@ -110,8 +117,8 @@ private:
     ImageBoxes boxes_;
     PendingFaces pending_;
 
-    std::size_t pending_count_ = 0;
     std::size_t test_count_ = 0;
+    std::size_t exact_test_count_ = 0;
     std::size_t relation_count_ = 0;
 
     BoundaryRelations all_relations_;

@@ -1,15 +1,21 @@
 #include "bsp/pending_faces.h"
 
-#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <glm/common.hpp>
+#include <utility>
 
 namespace visorder {
 
+namespace {
+
+constexpr std::size_t depth_steps = 4096;
+
+} // namespace
+
 void ImageBoxes::reset(std::size_t faces, int charts)
 {
+    faces_ = faces;
     charts_ = charts;
     constexpr float infinity = std::numeric_limits<float>::infinity();
     boxes_.assign(faces * static_cast<std::size_t>(charts), {glm::vec3(infinity), glm::vec3(-infinity)});
@@ -25,58 +31,85 @@ void ImageBoxes::set(std::size_t face, int chart, const Box& box)
                                                                                           rounded(box.max)};
 }
 
-void PendingFaces::make_grids(std::size_t faces)
+void PendingFaces::Extent::add(const ImageBoxes::ImageBox& box)
 {
-    const ImageBoxes& boxes = *boxes_;
-    grids_.assign(static_cast<std::size_t>(boxes.chart_count()), {});
-    std::size_t lists = 0;
-    for (int chart = 0; chart < boxes.chart_count(); ++chart) {
-        glm::dvec2 min(std::numeric_limits<double>::infinity()), max = -min, sizes(0);
-        double count = 0;
-        for (std::size_t face = 0; face < faces; ++face) {
-            if (!boxes.present(face, chart))
-                continue;
-            const ImageBoxes::ImageBox& box = boxes.box(face, chart);
-            const glm::dvec2 low(box.min), high(box.max);
-            min = {std::min(min.x, low.x), std::min(min.y, low.y)};
-            max = {std::max(max.x, high.x), std::max(max.y, high.y)};
-            sizes += high - low;
-            ++count;
-        }
-        Grid& grid = grids_[static_cast<std::size_t>(chart)];
-        grid.first_list = lists;
-        const glm::dvec2 size = max - min;
-        if (count > 0 && size.x > 0 && size.y > 0) {
-            // Squares twice as large as a face is on average.
-            const auto squares = [&](double extent, double of_faces) {
-                return static_cast<std::uint32_t>(
-                    std::clamp(0.5 * extent * count / of_faces, 1.0, std::sqrt(4 * count + 1)));
-            };
-            grid.columns = squares(size.x, sizes.x);
-            grid.rows = squares(size.y, sizes.y);
-            grid.origin = glm::vec2(min);
-            grid.per_unit = glm::vec2(glm::dvec2(grid.columns, grid.rows) / size);
-        }
-        lists += 1 + std::size_t{grid.columns} * grid.rows;
-    }
-    lists_.assign(lists, {});
+    min = glm::min(min, glm::dvec3(box.min));
+    max = glm::max(max, glm::dvec3(box.max));
+    sizes += glm::dvec2(box.max) - glm::dvec2(box.min);
+    ++count;
 }
 
-void PendingFaces::sort_lists()
+PendingFaces::Grid PendingFaces::grid(const Extent& extent, std::size_t first_list)
 {
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, lists_.size(), 256), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            std::sort(entries_.begin() + lists_[i].begin, entries_.begin() + lists_[i].end,
-                      [](const Entry& a, const Entry& b) {
-                          return a.farthest > b.farthest || (a.farthest == b.farthest && a.face < b.face);
-                      });
-    });
+    Grid grid;
+    grid.first_list = first_list;
+    const auto set = [&](Scale& scale, double low, double high, double numbers) {
+        if (!(high > low))
+            return;
+        scale.origin = static_cast<float>(low);
+        scale.per_unit = static_cast<float>(
+            std::min(numbers / (high - low), static_cast<double>(std::numeric_limits<float>::max())));
+        scale.most = static_cast<float>(numbers - 1);
+    };
+    // Squares twice as large as a face is on average.
+    const auto squares = [&](double size, double of_faces) {
+        return size > 0 ? static_cast<std::uint32_t>(std::clamp(0.5 * size * extent.count / of_faces, 1.0,
+                                                                std::min(std::sqrt(4 * extent.count + 1), 65536.0)))
+                        : 1;
+    };
+    grid.columns = squares(extent.max.x - extent.min.x, extent.sizes.x);
+    grid.rows = squares(extent.max.y - extent.min.y, extent.sizes.y);
+    // As many numbers a square as 16 bits allow.
+    grid.column_shift = 16 - static_cast<int>(std::bit_width(grid.columns - 1));
+    grid.row_shift = 16 - static_cast<int>(std::bit_width(grid.rows - 1));
+    set(grid.x, extent.min.x, extent.max.x, std::ldexp(grid.columns, grid.column_shift));
+    set(grid.y, extent.min.y, extent.max.y, std::ldexp(grid.rows, grid.row_shift));
+    set(grid.depth, extent.min.z, extent.max.z, depth_steps);
+    return grid;
+}
+
+// Lists the faces of one chart.
+void PendingFaces::fill(const Grid& grid)
+{
+    lists_.resize(grid.first_list + 1 + std::size_t{grid.columns} * grid.rows);
+    std::array<std::uint32_t, depth_steps> places{}; // of the faces of a depth
+    for (const Entry& entry : faces_) {
+        ++places[entry.farthest()];
+        each_list(grid, entry, [&](std::size_t list) { ++lists_[list].end; });
+    }
+    std::uint32_t place = 0;
+    for (std::size_t depth = depth_steps; depth-- > 0;)
+        place += std::exchange(places[depth], place);
+    farthest_first_.resize(faces_.size());
+    for (std::uint32_t i = 0; i < faces_.size(); ++i)
+        farthest_first_[places[faces_[i].farthest()]++] = i;
+
+    auto end = static_cast<std::uint32_t>(entries_.size());
+    for (std::size_t i = grid.first_list; i < lists_.size(); ++i) {
+        lists_[i].begin = end;
+        end += std::exchange(lists_[i].end, end);
+    }
+    entries_.resize(end);
+    for (std::uint32_t i : farthest_first_)
+        each_list(grid, faces_[i], [&](std::size_t list) { entries_[lists_[list].end++] = faces_[i]; });
+}
+
+// Takes those that are gone out of what the last search looked at.
+void PendingFaces::clean(List& list)
+{
+    std::uint32_t kept = list.nearest;
+    for (std::uint32_t i = kept; i-- > list.begin;)
+        if (is_gone_[entries_[i].face] == 0)
+            entries_[--kept] = entries_[i];
+    list.begin = kept;
+    list.looks = 0;
 }
 
 std::size_t PendingFaces::bytes() const
 {
-    return grids_.capacity() * sizeof(Grid) + lists_.capacity() * sizeof(List) + entries_.capacity() * sizeof(Entry) +
-           is_added_.capacity() + stamps_.capacity() * sizeof(std::uint32_t);
+    const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+    return size_of(grids_) + size_of(lists_) + size_of(entries_) + size_of(is_gone_) + size_of(sought_) +
+           size_of(faces_) + size_of(farthest_first_);
 }
 
 } // namespace visorder

@@ -15,7 +15,8 @@ namespace visorder {
 namespace {
 
 constexpr double nearest_part = 1e-6;   // of the farthest point's distance from the plane of the eye
-constexpr double larger_by = 1.0 / 256; // pixels; corners move by less than 0.003
+constexpr double larger_by = 1.0 / 256; // pixels; corners move by less than 0.003,
+constexpr double rounded_by = 0x1p-21;  // and by this part of their coordinates
 constexpr double longest_tip = 16;      // pixels
 
 // Homogeneous pixel coordinates, and the depth times w.
@@ -43,7 +44,7 @@ public:
             least = std::min(least, p.w);
             farthest = std::max(farthest, p.w);
         }
-        nearest_w_ = std::max(least, nearest_part * farthest);
+        nearest_w_ = farthest > 0 ? std::max(least, nearest_part * farthest) : std::numeric_limits<double>::infinity();
         for (const glm::dvec4& p : clip_)
             if (p.w >= nearest_w_)
                 add_depth(p);
@@ -117,11 +118,14 @@ std::array<glm::dvec2, 3> enlarged(const std::array<glm::dvec2, 3>& corners, dou
         const double length = glm::length(along);
         normals[i] = length > 0 ? glm::dvec2(along.y, -along.x) * (turn / length) : glm::dvec2(0);
     }
+    double by = larger_by;
+    for (const glm::dvec2& corner : corners)
+        by = std::max({by, rounded_by * std::abs(corner.x), rounded_by * std::abs(corner.y)});
     std::array<glm::dvec2, 3> result;
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec2 sum = normals[i] + normals[(i + 2) % 3];
         const double square = glm::dot(sum, sum); // 2 + 2 cos of the angle between the normals
-        glm::dvec2 move = square > 0 ? sum * (2 * larger_by / square) : glm::dvec2(0);
+        glm::dvec2 move = square > 0 ? sum * (2 * by / square) : glm::dvec2(0);
         if (const double length = glm::length(move); length > longest_tip)
             move *= longest_tip / length;
         result[i] = corners[i] + move;

@@ -226,19 +226,31 @@ std::size_t ItemBuffer::find_covered(std::span<const std::uint32_t> items, const
     return covered_.read(no_words, covered);
 }
 
-void ItemBuffer::read_nearest(const PixelRectangle& rectangle, std::uint32_t* into) const
+void ItemBuffer::read(std::size_t image, const PixelRectangle& rectangle, int row_length, GLenum format, GLenum type,
+                      void* into) const
 {
-    framebuffer_->read(0, rectangle.from, rectangle.size, GL_RED_INTEGER, GL_UNSIGNED_INT, into);
+    const GlFunctions& gl = context_->gl();
+    gl.PixelStorei(GL_PACK_ROW_LENGTH, row_length);
+    gl.PixelStorei(GL_PACK_SKIP_PIXELS, rectangle.from.x);
+    gl.PixelStorei(GL_PACK_SKIP_ROWS, rectangle.from.y);
+    framebuffer_->read(image, rectangle.from, rectangle.size, format, type, into);
+    for (const GLenum setting : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS})
+        gl.PixelStorei(setting, 0);
 }
 
-void ItemBuffer::read_farthest(const PixelRectangle& rectangle, std::uint32_t* into) const
+void ItemBuffer::read_nearest(const PixelRectangle& rectangle, int row_length, std::uint32_t* into) const
 {
-    framebuffer_->read(1, rectangle.from, rectangle.size, GL_RED_INTEGER, GL_UNSIGNED_INT, into);
+    read(0, rectangle, row_length, GL_RED_INTEGER, GL_UNSIGNED_INT, into);
 }
 
-void ItemBuffer::read_stencil(const PixelRectangle& rectangle, std::uint8_t* into) const
+void ItemBuffer::read_farthest(const PixelRectangle& rectangle, int row_length, std::uint32_t* into) const
 {
-    framebuffer_->read(0, rectangle.from, rectangle.size, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, into);
+    read(1, rectangle, row_length, GL_RED_INTEGER, GL_UNSIGNED_INT, into);
+}
+
+void ItemBuffer::read_stencil(const PixelRectangle& rectangle, int row_length, std::uint8_t* into) const
+{
+    read(0, rectangle, row_length, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, into);
 }
 
 std::size_t ItemBuffer::bytes() const

@@ -58,9 +58,10 @@ public:
     static const char* fragment_preamble();
     static const char* vertex_shader();
 
-    void read_nearest(const PixelRectangle& rectangle, std::uint32_t* into) const;
-    void read_farthest(const PixelRectangle& rectangle, std::uint32_t* into) const;
-    void read_stencil(const PixelRectangle& rectangle, std::uint8_t* into) const;
+    /// Reads a rectangle of an image into the same place of an array with rows of `row_length`.
+    void read_nearest(const PixelRectangle& rectangle, int row_length, std::uint32_t* into) const;
+    void read_farthest(const PixelRectangle& rectangle, int row_length, std::uint32_t* into) const;
+    void read_stencil(const PixelRectangle& rectangle, int row_length, std::uint8_t* into) const;
 
     const Context& context() const { return *context_; }
     glm::ivec2 size() const { return framebuffer_ ? framebuffer_->size() : glm::ivec2(0); }
@@ -74,6 +75,8 @@ public:
     std::size_t bytes() const;
 
 private:
+    void read(std::size_t image, const PixelRectangle& rectangle, int row_length, GLenum format, GLenum type,
+              void* into) const;
     void clear(int image, float depth, const PixelRectangle& within);
     void draw(std::span<const std::uint32_t> items);
 

@@ -13,6 +13,7 @@ namespace visorder {
 namespace {
 
 constexpr std::uint32_t most_layers_by_passes = 255;
+constexpr int most_passes = 8; // of step 4, for one layer
 
 std::unique_ptr<LayerScan> make_scan(const Context& context, LayerVariant variant, int block)
 {
@@ -168,7 +169,8 @@ bool LayerExtraction::extract_layer(Layers& layers)
         return false;
     if (layers.count == most_layers_by_passes)
         return take_apart(layers);
-    for (LayerScan::Outcome outcome{true, false}; outcome.again && !candidates_.empty();) {
+    LayerScan::Outcome outcome{true, false};
+    for (int pass = 1; outcome.again && !candidates_.empty(); ++pass) {
         watch.lap();
         buffer_.draw_farthest(candidates_, scan_->alive());
         gl.Finish();
@@ -178,7 +180,7 @@ bool LayerExtraction::extract_layer(Layers& layers)
         outcome = scan_->find_covered(candidates_, covered_);
         remove(candidates_, covered_, kept_);
         // The passes would be very many, or (a folded face may lie behind itself) without end.
-        if (outcome.saturated || (outcome.again && covered_.empty())) {
+        if (outcome.saturated || (outcome.again && (pass == most_passes || covered_.empty()))) {
             watch.lap();
             covered_.clear();
             work_.flags_read += buffer_.find_covered(candidates_, scan_->alive(), covered_);
@@ -201,13 +203,11 @@ bool LayerExtraction::extract_layer(Layers& layers)
 bool LayerExtraction::take_apart(Layers& layers)
 {
     Successions successions;
-    Stopwatch watch;
     sequences_.visit(rest_, scan_->alive(), [&](std::span<const Fragment> pixel) { successions.add(pixel); });
     work_.rendering_s += sequences_.rendering_s();
     work_.reading_s += sequences_.reading_s();
     work_.passes += static_cast<std::size_t>(sequences_.passes());
     work_.fragments_read += sequences_.fragment_count();
-    const double in_sequences = sequences_.rendering_s() + sequences_.reading_s();
 
     const std::vector<std::uint32_t> shown = successions.shown();
     const auto node_of = [&](std::uint64_t item) {
@@ -235,7 +235,6 @@ bool LayerExtraction::take_apart(Layers& layers)
         }
     }
     std::sort(layers.cycles.begin(), layers.cycles.end());
-    work_.scanning_s += watch.lap() - in_sequences;
     return false;
 }
 

@@ -47,7 +47,8 @@ enum class LayerVariant {
 /// 1. Of all items T that have no layer yet, draw the nearest image: the z-test lets pass what is nearer (step 1, 2).
 /// 2. The items it shows are candidates, F (step 3). Any other item of T lies behind one of them.
 /// 3. Draw the farthest image of F, and count in the stencil buffer how many items cover each pixel (step 4a, b). Take
-///    off what it shows behind another item; repeat while items lie behind each other (step 4c).
+///    off what it shows behind another item; repeat while items lie behind each other (step 4c). After many passes, or
+///    where the stencil buffer cannot count so far, one pass in which the items mark themselves finds the others.
 /// 4. What is left of F is covered nowhere: it is the next layer (step 4d).
 /// 5. Where nothing is left, T contains a cycle (step 5).
 ///

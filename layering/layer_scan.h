@@ -15,8 +15,8 @@ namespace visorder {
 struct LayerWork {
     double rendering_s = 0;
     double reading_s = 0;
-    double scanning_s = 0;
-    double rest_s = 0;
+    double scanning_s = 0; ///< of images
+    double rest_s = 0;     ///< projecting, and taking apart what is left with a cycle in it
     std::size_t passes = 0;
     std::size_t pixels_read = 0; ///< values of one buffer: an item, or a count of the stencil buffer
     std::size_t flags_read = 0;
@@ -58,7 +58,7 @@ public:
 };
 
 /// Reads the images back, block by block of `block` x `block` pixels, or whole where `block` is 0. A block is not read
-/// again once it was empty.
+/// again once it was empty, nor by step 4 once none of its pixels has several items.
 std::unique_ptr<LayerScan> make_readback_scan(int block);
 
 /// Scans by compute shaders. One flag an item is read back.

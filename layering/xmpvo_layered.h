@@ -1,5 +1,6 @@
 #pragma once
 
+#include "layering/layer_scan.h"
 #include "layering/pixel_sequences.h"
 #include "scene/face_planes.h"
 #include "scene/scene.h"
@@ -18,7 +19,8 @@ namespace visorder {
 /// each pixel they stand layer behind layer; where a ray leaves the mesh by one layer and comes back by the next, an
 /// arrow leads from the owner of the one face to that of the other. The arrows, put to the exact predicates as `xmpvo`
 /// does with what its rays find, go with the interior relations to the topological sort. No relation is wrong, but one
-/// that no pixel shows is missing: what lies outside the view, and overlaps that fall between the sample points.
+/// that no pixel shows is missing: what lies outside the view, and overlaps that fall between the sample points. Where
+/// rays come back in a small part of the image only, that part is drawn again as large as the image.
 /// Exact on convex meshes; elsewhere approximate.
 ///
 /// Needs adjacency, boundary and face planes. Holds an OpenGL context. One `sort` at a time on one sorter, on any
@@ -38,7 +40,7 @@ public:
     std::span<const Relation> relations() const { return relations_; }
 
 private:
-    void find_pairs();
+    PixelRectangle find_pairs(const glm::dmat4& world_to_clip, glm::ivec2 size);
 
     const Scene& scene_;
     glm::ivec2 size_;
@@ -52,6 +54,8 @@ private:
     std::vector<std::uint64_t> pairs_; // of boundary faces, exit << 32 | entry
     std::vector<Relation> relations_;
     TopologicalSort topological_sort_;
+    std::vector<std::uint8_t> drawn_;
+    LayerWork work_;
     std::size_t deepest_ = 0;
 };
 

@@ -11,9 +11,10 @@ namespace visorder {
 namespace {
 
 constexpr double u = std::numeric_limits<double>::epsilon() / 2;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Beyond this, sums and products of a few coordinates might overflow.
 constexpr double huge = 1e300;
+// Below this, roundings of products might be above u times them.
+constexpr double tiny = 1e-280;
 
 constexpr double whole_range = std::numeric_limits<double>::max();
 
@@ -52,10 +53,19 @@ ProjectionCharts::ProjectionCharts(const Box& bounds, const glm::dvec4& eye) : p
 
 std::optional<Box> ProjectionCharts::box(std::span<const glm::dvec3> face, int chart) const
 {
-    return parallel_ ? box_along_direction(face) : box_in_side(face, sides_[static_cast<std::size_t>(chart)]);
+    if (in_one_plane_) {
+        Box box;
+        for (const glm::dvec3& p : face)
+            box.add(image(p));
+        return Box{box.min - image_error_, box.max + image_error_};
+    }
+    if (parallel_)
+        return Box{glm::dvec3(-whole_range), glm::dvec3(whole_range)};
+    return box_in_side(face, sides_[static_cast<std::size_t>(chart)]);
 }
 
-void ProjectionCharts::set_direction(const glm::dvec3& towards, const Box& bounds)
+// `away` against `towards`, and two more, each of unit length and at right angles but for roundings.
+void ProjectionCharts::set_axes(const glm::dvec3& towards)
 {
     const glm::dvec3 size = glm::abs(towards);
     const glm::dvec3 back = glm::normalize(towards / std::max({size.x, size.y, size.z}));
@@ -65,26 +75,19 @@ void ProjectionCharts::set_direction(const glm::dvec3& towards, const Box& bound
     right_ = glm::normalize(glm::cross(least, back));
     up_ = glm::cross(back, right_);
     away_ = -back;
+}
+
+void ProjectionCharts::set_direction(const glm::dvec3& towards, const Box& bounds)
+{
+    set_axes(towards);
     origin_ = bounds.middle();
     const glm::dvec3 half = bounds.max * 0.5 - bounds.min * 0.5;
     const double radius = half.x + half.y + half.z;
+    in_one_plane_ = radius < huge;
     // Let two points of the scene lie on one ray, up to 2 radius apart. With axes off the true direction by at most
     // 12 u, the points' images are at most 24 u radius apart; each is computed to within 6 u radius (a rounded
     // difference and a sum of three products). 1e-14 is 90 u.
-    margin_ = radius < huge ? 1e-14 * radius : infinity;
-}
-
-std::optional<Box> ProjectionCharts::box_along_direction(std::span<const glm::dvec3> face) const
-{
-    if (margin_ == infinity)
-        return Box{glm::dvec3(-whole_range), glm::dvec3(whole_range)};
-    Box box;
-    for (const glm::dvec3& p : face) {
-        const glm::dvec3 d = p - origin_;
-        const glm::dvec3 image(glm::dot(right_, d), glm::dot(up_, d), glm::dot(away_, d));
-        box.add(image);
-    }
-    return Box{box.min - margin_, box.max + margin_};
+    image_error_ = glm::dvec3(1e-14 * radius);
 }
 
 void ProjectionCharts::set_position(const glm::dvec4& eye, const Box& bounds)
@@ -94,7 +97,44 @@ void ProjectionCharts::set_position(const glm::dvec4& eye, const Box& bounds)
     // Division by 1 or -1 does not round.
     const bool exact = std::abs(eye.w) == 1;
     margin_ = exact ? 0.0 : u * std::max({size.x, size.y, size.z}) + std::numeric_limits<double>::min();
+    in_one_plane_ = set_plane(bounds);
+    if (!in_one_plane_)
+        set_sides(bounds);
+}
 
+// The image of x, which lies d off the position, is (right . d, up . d) / (away . d). The rounded axes are as good as
+// true ones: whatever they are, this is the same for all points on one ray.
+bool ProjectionCharts::set_plane(const Box& bounds)
+{
+    const glm::dvec3 low = bounds.min - origin_, high = bounds.max - origin_;
+    const glm::dvec3 most = glm::max(glm::abs(low), glm::abs(high));
+    const double reach = std::max({most.x, most.y, most.z});
+    const glm::dvec3 towards = low * -0.5 + high * -0.5;
+    if (!(reach > tiny && reach < huge && (towards.x != 0 || towards.y != 0 || towards.z != 0)))
+        return false;
+    set_axes(towards);
+    // Of a product of d with an axis: its components are off by u reach and the position's margin, of which the axis
+    // takes sqrt(3) times as much, and the sum of the products by 3 u sqrt(3) reach.
+    const double error = 16 * u * reach + 4 * margin_;
+    // The least that any away . d is, true or rounded: least at a corner.
+    double nearest = reach;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 d((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                           (corner & 4) != 0 ? high.z : low.z);
+        nearest = std::min(nearest, glm::dot(away_, d));
+    }
+    nearest -= 4 * error;
+    if (!(nearest > reach / 16))
+        return false;
+    // No image coordinate is above 2 reach / nearest. A quotient is off by (1 + its size) error / nearest, and by its
+    // rounding.
+    const double along = 2 * (1 + 2 * reach / nearest) * (error / nearest + u);
+    image_error_ = {along, along, error};
+    return true;
+}
+
+void ProjectionCharts::set_sides(const Box& bounds)
+{
     // A side shows nothing of the scene if it shows nothing of a box that holds it: if all corners are beyond one of
     // the planes that bound it. Widened as in box_in_side.
     const glm::dvec3 least = bounds.min - origin_, most = bounds.max - origin_;

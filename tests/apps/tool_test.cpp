@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -69,7 +70,8 @@ TEST(Tool, ComparesAndWritesTheResultFormat)
 {
     const TemporaryFolder folder;
     const std::string file = (folder / "result.json").string();
-    const Outcome outcome = run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --json " + file);
+    const Outcome outcome =
+        run("compare --scene delaunay:1500,carved:1500,pinwheel --views 2 --hard --size 64x64 --json " + file);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto result = nlohmann::json::parse(read(file));
     for (const char* key : {"visorder", "machine", "scenes", "runs"})
@@ -81,6 +83,10 @@ TEST(Tool, ComparesAndWritesTheResultFormat)
     EXPECT_FALSE(result["scenes"][1]["convex"]);
     std::size_t wrong_centroid = 0, wrong_mpvo_convex = 0, wrong_mpvo_carved = 0, pinwheel_cycles = 0;
     for (const auto& run : result["runs"]) {
+        if (run["sorter"].get<std::string>().starts_with("layers")) {
+            EXPECT_NE(run["skipped"].get<std::string>().find("xmpvo-layered"), std::string::npos);
+            continue;
+        }
         for (const char* key : {"scene", "view", "sorter", "guarantee", "prepare_s", "sort_s", "structure_bytes",
                                 "relations", "violations", "cycles", "cells_in_cycles", "image_rmse", "image_max"})
             ASSERT_TRUE(run.contains(key)) << key;
@@ -162,7 +168,8 @@ TEST(Tool, TakesSurfaceScenes)
 {
     const TemporaryFolder folder;
     const std::string order = (folder / "order.txt").string();
-    const Outcome compared = run("compare --scene shells:500,cards:200,sphere:100,knot:300 --views 2 --hard");
+    const Outcome compared =
+        run("compare --scene shells:500,cards:200,sphere:100,knot:300 --views 2 --hard --layer-size 64x64");
     EXPECT_EQ(compared.code, 0) << compared.output;
     for (const char* part : {"0 boundary edges, surface\n", "pairs of cells overlap", "power            skipped"})
         EXPECT_NE(compared.output.find(part), std::string::npos) << part << "\n" << compared.output;
@@ -175,6 +182,39 @@ TEST(Tool, TakesSurfaceScenes)
     const Outcome inspected = run("inspect --scene cards:200");
     EXPECT_EQ(inspected.code, 0) << inspected.output;
     EXPECT_NE(inspected.output.find("400 edges in 100 components"), std::string::npos) << inspected.output;
+}
+
+TEST(Tool, ExtractsLayersAndPaintsThem)
+{
+    const TemporaryFolder folder;
+    for (const char* model : {"--scene shells:300", "--scene reactor:600"}) {
+        SCOPED_TRACE(model);
+        const std::string pictures = (folder / "pictures").string();
+        const Outcome layers =
+            run("layers " + std::string(model) + " --frames 2 --size 90x70,64x64 --block 32 --check -o " + pictures);
+        EXPECT_EQ(layers.code, 0) << layers.output;
+        for (const char* part : {"vertices", "triangles", "90x70", "64x64", "layers-blocked", "layers-compute",
+                                 "render %", "read %", "scan %", " 0 wrong, 0 missed"})
+            EXPECT_NE(layers.output.find(part), std::string::npos) << part << "\n" << layers.output;
+        for (const char* file : {"layers.png", "turned.png", "layer-001.png"})
+            EXPECT_TRUE(std::filesystem::exists(folder / "pictures" / file)) << file;
+        std::filesystem::remove_all(folder / "pictures");
+    }
+}
+
+// Mesa can be told to have an older OpenGL.
+TEST(Tool, SaysInOneLineThatThereIsNoOpenGl)
+{
+    const TemporaryFolder folder;
+    const std::string out = (folder / "order.txt").string();
+    setenv("MESA_GL_VERSION_OVERRIDE", "3.3", 1);
+    expect_one_line_and_code_2("sort --scene sphere:100 --eye 3,2,1 --sorter layers -o " + out, "OpenGL 4.5");
+    expect_one_line_and_code_2("sort --scene delaunay:500 --eye 3,2,1 --sorter xmpvo-layered --gl osmesa -o " + out,
+                               "OpenGL 4.5");
+    const Outcome compared = run("compare --scene carved:500 --views 1 --sorters mpvo,xmpvo-layered");
+    unsetenv("MESA_GL_VERSION_OVERRIDE");
+    EXPECT_EQ(compared.code, 0) << compared.output;
+    EXPECT_NE(compared.output.find("xmpvo-layered    skipped: "), std::string::npos) << compared.output;
 }
 
 TEST(Tool, InspectsHexahedraWithFacesThatAreNotPlanar)
@@ -198,6 +238,12 @@ TEST(Tool, AnswersBadInputWithOneLineAndCode2)
     expect_one_line_and_code_2("compare --scene delaunay:500 --json /nowhere/result.json", "/nowhere/result.json");
     expect_one_line_and_code_2("sort --scene delaunay:500 -o " + out, "no view");
     expect_one_line_and_code_2("sort --eye 1,2,3 -o " + out, "no mesh");
+    expect_one_line_and_code_2("sort --scene sphere:20 --sorter layers --layer-size 64 --eye 1,2,3 -o " + out,
+                               "--layer-size");
+    expect_one_line_and_code_2("sort --scene sphere:20 --sorter layers --layer-block 48 --eye 1,2,3 -o " + out, "48");
+    expect_one_line_and_code_2("sort --scene sphere:20 --sorter layers --gl glx --eye 1,2,3 -o " + out, "glx");
+    expect_one_line_and_code_2("sort --scene delaunay:500 --sorter layers --eye 1,2,3 -o " + out, "xmpvo-layered");
+    expect_one_line_and_code_2("layers --scene sphere:20 --size 1x2x3 -o " + (folder / "pictures").string(), "--size");
     expect_one_line_and_code_2("sort --scene delaunay:500 --eye 1,2 -o " + out, "--eye");
     expect_one_line_and_code_2("sort --scene delaunay:500 --eye nan,0,0 -o " + out, "eye");
     expect_one_line_and_code_2("sort --scene delaunay:500 --direction 0,0,0 -o " + out, "eye");

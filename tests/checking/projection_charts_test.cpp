@@ -8,6 +8,7 @@
 #include "small_scenes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <optional>
@@ -89,15 +90,58 @@ TEST(ProjectionCharts, FacesThatOverlapMeetInSomeChart)
     EXPECT_GT(pairs, 10000u);
 }
 
+// Where one plane shows all: points on one ray from the eye have images within twice the error of each other, and the
+// farther one is the one with the greater depth.
+TEST(ProjectionCharts, ImagesOfPointsOnOneRayAreTheSame)
+{
+    Random random(11);
+    std::size_t planes = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const double extent = i % 3 == 0 ? 1 : i % 3 == 1 ? 1e-7 : 1e9;
+        const auto point = [&] {
+            const double x = random.real() - 0.5, y = random.real() - 0.5, z = random.real() - 0.5;
+            return glm::dvec3(x, y, z) * extent;
+        };
+        const Box bounds{glm::dvec3(-0.5 * extent), glm::dvec3(0.5 * extent)};
+        const bool parallel = i % 2 == 0;
+        const glm::dvec4 eye(point() * (parallel ? 1.0 : 1 + 8 * random.real()), parallel ? 0 : 1);
+        const ProjectionCharts charts(bounds, eye);
+        EXPECT_TRUE(charts.has_images() || !parallel);
+        if (!charts.has_images())
+            continue;
+        ++planes;
+        EXPECT_EQ(charts.count(), 1);
+        const glm::dvec3 far = point();
+        // Halves and quarters of these coordinates are exact enough: what rounds them is far below the error.
+        const glm::dvec3 near =
+            parallel ? far + glm::dvec3(eye) * 0.25 : far + (glm::dvec3(eye) - far) * (random.real() * 0.25);
+        if (std::max({std::abs(near.x), std::abs(near.y), std::abs(near.z)}) > 0.5 * extent)
+            continue;
+        SCOPED_TRACE(reproduce("two points on a ray", eye));
+        const glm::dvec3 f = charts.image(far), n = charts.image(near), error = charts.image_error();
+        EXPECT_LE(std::abs(f.x - n.x), 2 * error.x);
+        EXPECT_LE(std::abs(f.y - n.y), 2 * error.y);
+        EXPECT_LE(n.z, f.z + 2 * error.z);
+        EXPECT_GT(error.x, 0);
+        // And the error is small beside the scene.
+        EXPECT_LT(error.x, parallel ? 1e-13 * extent : 1e-10);
+    }
+    EXPECT_GT(planes, 2500u);
+}
+
 TEST(ProjectionCharts, ShowFewSidesOfTheCubeFromAfar)
 {
     const Box bounds{glm::dvec3(0), glm::dvec3(8)};
     EXPECT_EQ(ProjectionCharts(bounds, {4, 4, 4, 1}).count(), 6);
     EXPECT_EQ(ProjectionCharts(bounds, {4, 4, 400, 1}).count(), 1);
     EXPECT_EQ(ProjectionCharts(bounds, {4, 4, 400, 0}).count(), 1);
-    // On the borders between two and three sides.
-    EXPECT_GE(ProjectionCharts(bounds, {104, 4, 104, 1}).count(), 2);
-    EXPECT_GE(ProjectionCharts(bounds, {104, 104, 104, 1}).count(), 3);
+    // Also in no direction of an axis.
+    EXPECT_EQ(ProjectionCharts(bounds, {104, 4, 104, 1}).count(), 1);
+    EXPECT_EQ(ProjectionCharts(bounds, {104, 104, 104, 1}).count(), 1);
+    // Close to the scene; on the border between two sides.
+    EXPECT_FALSE(ProjectionCharts(bounds, {8.25, 4, 8.25, 1}).has_images());
+    EXPECT_GE(ProjectionCharts(bounds, {8.25, 4, 8.25, 1}).count(), 2);
+    EXPECT_LT(ProjectionCharts(bounds, {8.25, 4, 8.25, 1}).count(), 6);
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const Triangles of(random_triangles(30, 8, seed));
         for (const glm::dvec4& eye :

@@ -134,16 +134,16 @@ TEST(HardLayers, TakesFiveThousandTrianglesApartThatCoverOnePixel)
 TEST(HardLayers, TakesMoreCandidatesAtOnePixelThanTheStencilBufferCounts)
 {
     // Blades that all cover the middle; most are seen at their tips.
-    constexpr int blades = 400;
+    constexpr int blades = 320;
     std::vector<glm::dvec3> corners;
     for (int i = 0; i < blades; ++i) {
         const double angle = 2 * std::numbers::pi * i / blades;
         const glm::dvec3 along(std::cos(angle), std::sin(angle), 0), across(-along.y, along.x, 0);
-        const glm::dvec3 at(0, 0, 0.001 * ((i * 149) % blades));
+        const glm::dvec3 at(0, 0, 0.001 * ((i * 147) % blades));
         corners.insert(corners.end(), {at - 0.1 * (along + across), at - 0.1 * (along - across), at + along});
     }
     const Mesh mesh = triangles(corners);
-    constexpr glm::ivec2 size(300, 300);
+    constexpr glm::ivec2 size(256, 256);
     const View view = parallel({0, 0, 1}, {0, 0, 0.2}, 1);
     const Scene scene(mesh);
     LayersSorter sorter(scene, LayerVariant::naive, GlPlatform::automatic, size, 64);

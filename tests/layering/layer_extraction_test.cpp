@@ -24,7 +24,7 @@ void expect_true_from_all_sides(const std::string& name, const Mesh& mesh, int v
         const Layers layers = layers_of(mesh, view.view, size);
         const LayerCheck check = expect_true(mesh, view.view, size, layers);
         EXPECT_GT(check.pairs, 1000u);
-        EXPECT_LT(check.ties * 10'000, check.pairs);
+        EXPECT_LT(check.ties * 1000, check.pairs);
         for (Extraction extraction : every_variant)
             for (const GlPlatform platform : {GlPlatform::egl, GlPlatform::osmesa}) {
                 extraction.platform = platform;

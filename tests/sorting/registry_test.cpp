@@ -11,11 +11,17 @@
 namespace visorder {
 namespace {
 
+// Solids, or a surface for the sorters that take no solids.
+Mesh mesh_for(const SorterInfo& info)
+{
+    return generate(std::string_view(info.name).starts_with("layers") ? "sphere:500" : "delaunay:500");
+}
+
 TEST(Registry, MakesEverySorterItLists)
 {
-    const Scene scene(generate("delaunay:500"));
     std::set<std::string> names;
     for (const SorterInfo& info : sorters()) {
+        const Scene scene(mesh_for(info));
         EXPECT_TRUE(names.insert(info.name).second) << info.name << " twice";
         const auto sorter = make_sorter(info.name, scene);
         Order order;
@@ -23,8 +29,8 @@ TEST(Registry, MakesEverySorterItLists)
         EXPECT_EQ(order.back_to_front.size(), scene.cell_count()) << info.name;
         EXPECT_GT(sorter->bytes(), 0u) << info.name;
     }
-    for (const char* name :
-         {"centroid", "power", "newell", "mpvo", "mpvo-nc", "xmpvo", "xmpvo-exact", "bsp-xmpvo", "auto"})
+    for (const char* name : {"centroid", "power", "newell", "mpvo", "mpvo-nc", "xmpvo", "xmpvo-exact", "bsp-xmpvo",
+                             "xmpvo-layered", "layers", "layers-blocked", "layers-compute", "auto"})
         EXPECT_EQ(names.count(name), 1u) << name;
 }
 
@@ -42,10 +48,10 @@ TEST(Registry, NamesTheSortersThereAreForAnUnknownOne)
 
 TEST(Registry, EverySorterRefusesAnEyeThatIsNowhere)
 {
-    const Scene scene(generate("delaunay:500"));
     const double nan = std::numeric_limits<double>::quiet_NaN();
     View view = look_at({3, 2, 1}, {0.5, 0.5, 0.5}, 1);
     for (const SorterInfo& info : sorters()) {
+        const Scene scene(mesh_for(info));
         const auto sorter = make_sorter(info.name, scene);
         Order order;
         for (const glm::dvec4& eye : {glm::dvec4(0), glm::dvec4(nan, 0, 0, 1), glm::dvec4(1, 1, 1, nan),
@@ -61,7 +67,7 @@ TEST(Registry, ASorterDerivesOnlyWhatItSaysItNeeds)
     for (const SorterInfo& info : sorters()) {
         if (std::string_view(info.name) == "auto")
             continue; // what it derives depends on the scene
-        const Scene scene(generate("delaunay:500"));
+        const Scene scene(mesh_for(info));
         const auto sorter = make_sorter(info.name, scene);
         Order order;
         sorter->sort(look_at({3, 2, 1}, {0.5, 0.5, 0.5}, 1), order);

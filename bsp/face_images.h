@@ -1,0 +1,50 @@
+#pragma once
+
+#include "bsp/face_corners.h"
+#include "scene/box.h"
+#include "sorting/projection_charts.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+namespace visorder {
+
+/// How the images of two faces lie, where rounded images tell it for sure.
+enum class Shared { nothing, area, unknown };
+
+/// The images of the faces of a BSP tree in one plane, in double precision, each corner's computed once.
+class FaceImages {
+public:
+    /// `corners` must live as long as this.
+    explicit FaceImages(const FaceCorners& corners) : corners_(corners) {}
+
+    /// From an eye whose charts have images. On all threads.
+    void project(const ProjectionCharts& charts);
+
+    /// Holds the image of a face; as ProjectionCharts::box.
+    Box box(std::uint32_t face) const;
+
+    /// Whether the images of two faces share an area. Corners in common are known to be the same.
+    Shared shared(std::uint32_t f, std::uint32_t g) const;
+
+    std::size_t bytes() const { return images_.capacity() * sizeof(glm::dvec2) + depths_.capacity() * sizeof(double); }
+
+private:
+    struct Polygon;
+    struct Separation {
+        bool separated; // an edge has all of the other polygon weakly outside, for sure
+        bool unknown;   // or some edge has not for sure a corner strictly inside
+    };
+    Polygon polygon(std::uint32_t face) const;
+    Separation separate(const Polygon& polygon, const Polygon& other) const;
+    double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) const;
+
+    const FaceCorners& corners_;
+    std::vector<glm::dvec2> images_; // a corner
+    std::vector<double> depths_;
+    glm::dvec3 error_{};
+};
+
+} // namespace visorder
