@@ -125,7 +125,8 @@ TEST(NamedTransferFunctions, AreWhatTheirNamesSay)
     EXPECT_GT(cool_warm.at(0).colour.b, cool_warm.at(0).colour.r);
     EXPECT_GT(cool_warm.at(1).colour.r, cool_warm.at(1).colour.b);
     EXPECT_EQ(cool_warm.at(0).extinction, 0);
-    for (const OpticalPoint& point : named_transfer_function("rainbow", 0, 1, 1).points())
+    const TransferFunction rainbow = named_transfer_function("rainbow", 0, 1, 1);
+    for (const OpticalPoint& point : rainbow.points())
         EXPECT_EQ(std::max({point.colour.r, point.colour.g, point.colour.b}), 1);
 }
 
