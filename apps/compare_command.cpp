@@ -79,7 +79,11 @@ void add_compare_command(CLI::App& app, Command& chosen)
     command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
     command->add_flag("--statistics", arguments->statistics, "Also what each sorter counts of its own work");
     add_sorter_options(*command, options.sorter_options);
-    command->add_flag("!--no-frames", options.frames, "Draw nothing: no image errors, no ray caster");
+    command
+        ->add_option("--frames", options.frames,
+                     "Views from which the scene is drawn in every order, for image errors; 0: nothing is drawn")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 10000));
     command->add_option("--images", options.images,
                         "A folder to keep the frames in, and how they differ from the exact order's, tenfold");
     command->add_option("--json", arguments->json_file, "Write every run to a file");

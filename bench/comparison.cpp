@@ -142,7 +142,7 @@ void measure(const Scene& scene, Candidate& candidate, const NamedView& view, in
 
 std::unique_ptr<Frames> make_frames(const Scene& scene, const ComparisonOptions& options, SceneResult& description)
 {
-    if (!options.frames)
+    if (options.frames == 0)
         return nullptr;
     if (options.images.empty() && scene.cell_count() > options.frames_up_to) {
         description.notes.push_back(
@@ -267,6 +267,7 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
         progress(fmt::format("{}: view {} of {}, relations", source.name, v + 1, views.size()));
         const Relations relations = checker.relations_at(views[v].view.eye);
         ViewFrames view_frames;
+        const bool draws = frames != nullptr && v < static_cast<std::size_t>(options.frames);
         for (std::size_t c = 0; c < candidates.size(); ++c) {
             Candidate& candidate = candidates[c];
             RunResult& run = runs[c][v];
@@ -284,10 +285,10 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
             run.violations = checked.violations;
             run.violations_in_cycles = checked.violations_in_cycles;
             description.overlapping_pairs = checked.overlapping.size();
-            if (frames != nullptr)
+            if (draws)
                 view_frames.keep(frames->draw(views[v].view, order), order, run);
         }
-        if (frames == nullptr)
+        if (!draws)
             continue;
         progress(fmt::format("{}: view {} of {}, frames", source.name, v + 1, views.size()));
         view_frames.draw_exact(*frames, scene, views[v].view);

@@ -29,8 +29,8 @@ struct ComparisonOptions {
     bool weld = false;                        ///< points of files with exactly equal coordinates
     std::string scalar;                       ///< of files; empty: the format's default
     SorterOptions sorter_options;
-    bool frames = true; ///< draw the scene in every order, where it can be drawn and has no more cells than
-    std::size_t frames_up_to = 500'000; ///< this, for what can take minutes beyond
+    int frames = 1; ///< views from which the scene is drawn in every order, where it can be drawn and has no more than
+    std::size_t frames_up_to = 500'000; ///< cells, for what can take minutes beyond
     std::filesystem::path images;       ///< a folder to keep frames in, of any number of cells; empty: none
 };
 
