@@ -73,21 +73,14 @@ View chosen_view(const Arguments& arguments, const Scene& scene)
 TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
 {
     const auto names = transfer_function_names();
-    const double diameter = glm::length(scene.bounds().max - scene.bounds().min);
-    double unit_length = arguments.unit_length;
-    if (unit_length == 0)
-        unit_length = diameter > 0 ? diameter / 10 : 1;
+    const double unit_length = arguments.unit_length != 0 ? arguments.unit_length : scene.diameter() / 10;
     if (std::find(names.begin(), names.end(), arguments.transfer) == names.end()) {
         if (!std::filesystem::exists(arguments.transfer))
             throw InputError(fmt::format("{}: neither a file nor a transfer function; there are: {}",
                                          arguments.transfer, fmt::join(names, ", ")));
         return read_transfer_function(arguments.transfer, {unit_length, arguments.map});
     }
-    const auto& scalars = scene.mesh().scalars;
-    if (scalars.empty())
-        throw InputError("the mesh has no scalars to draw");
-    const auto [low, high] = std::minmax_element(scalars.begin(), scalars.end());
-    return named_transfer_function(arguments.transfer, *low, *high, unit_length);
+    return named_transfer_function(arguments.transfer, scene, unit_length);
 }
 
 int run(const Arguments& arguments)

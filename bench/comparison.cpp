@@ -6,6 +6,7 @@
 #include "checking/order_checker.h"
 #include "graphics/graphics_error.h"
 #include "scene/error.h"
+#include "scene/stopwatch.h"
 #include "scene/subdivision.h"
 #include "sorting/registry.h"
 #if defined(VISORDER_WITH_VTK)
@@ -13,7 +14,6 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -24,11 +24,6 @@ namespace visorder {
 namespace {
 
 using Progress = std::function<void(const std::string&)>;
-
-double now()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 struct Source {
     std::string name;
@@ -97,7 +92,7 @@ Candidate make_candidate(const SorterInfo& info, const Scene& scene, const Sorte
             if (!contains(candidate.structures, structure))
                 candidate.structures.push_back(structure);
     const std::size_t derived_before = scene.derived().size();
-    const double begin = now();
+    Stopwatch watch;
     try {
         candidate.sorter = make_sorter(info.name, scene, options);
     } catch (const InputError& error) {
@@ -107,7 +102,7 @@ Candidate make_candidate(const SorterInfo& info, const Scene& scene, const Sorte
         candidate.skipped = error.what();
         return candidate;
     }
-    candidate.make_s = now() - begin;
+    candidate.make_s = watch.lap();
     const auto derived = scene.derived();
     for (std::size_t i = derived_before; i < derived.size(); ++i)
         candidate.make_s -= derived[i].seconds;
@@ -122,9 +117,9 @@ void measure(const Scene& scene, Candidate& candidate, const NamedView& view, in
     sorter.sort(view.view, order); // warms the sorter and the caches
     std::vector<double> seconds;
     for (int i = 0; i < repeats; ++i) {
-        const double begin = now();
+        Stopwatch watch;
         sorter.sort(view.view, order);
-        seconds.push_back(now() - begin);
+        seconds.push_back(watch.lap());
     }
     run.sort_s = median(std::move(seconds));
     run.prepare_s = candidate.make_s;

@@ -1,39 +1,23 @@
 #include "bench/frames.h"
 
 #include "checking/ray_caster.h"
-#include "scene/error.h"
-
-#include <algorithm>
-#include <chrono>
-#include <glm/geometric.hpp>
+#include "scene/stopwatch.h"
 
 namespace visorder {
 
-namespace {
-
-TransferFunction medium_of(const Scene& scene)
+std::vector<MediumPoint> medium_of(const TransferFunction& function)
 {
-    const Mesh& mesh = scene.mesh();
-    if (!scene.is_tetrahedral())
-        throw InputError("frames are drawn of tetrahedra alone");
-    if (mesh.scalars.empty())
-        throw InputError("frames need scalars");
-    const auto [lowest, highest] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
-    const double diameter = glm::length(scene.bounds().max - scene.bounds().min);
-    return named_transfer_function("rainbow", *lowest, *highest, diameter > 0 ? diameter / 40 : 1);
+    std::vector<MediumPoint> medium;
+    for (const OpticalPoint& p : function.points())
+        medium.push_back({p.scalar, p.extinction, p.colour});
+    return medium;
 }
 
-double now()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-} // namespace
-
-Frames::Frames(const Scene& scene, GlPlatform platform) : scene_(scene), context_(platform), medium_(medium_of(scene))
+Frames::Frames(const Scene& scene, GlPlatform platform)
+    : scene_(scene), context_(platform), function_(named_transfer_function("rainbow", scene, scene.diameter() / 40))
 {
     const Context::Current current(context_);
-    renderer_ = std::make_unique<ProjectionRenderer>(context_, scene, medium_);
+    renderer_ = std::make_unique<ProjectionRenderer>(context_, scene, function_);
 }
 
 Image Frames::draw(const View& view, const Order& order)
@@ -44,9 +28,7 @@ Image Frames::draw(const View& view, const Order& order)
 
 std::vector<IntegratorResult> Frames::integrators(const View& view, const Order& order)
 {
-    std::vector<MediumPoint> medium;
-    for (const OpticalPoint& p : medium_.points())
-        medium.push_back({p.scalar, p.extinction, p.colour});
+    const std::vector<MediumPoint> medium = medium_of(function_);
     RayCastOptions options;
     options.silhouette_margin = 1;
     const RayCast truth = cast_rays(scene_, medium, view, options);
@@ -56,11 +38,11 @@ std::vector<IntegratorResult> Frames::integrators(const View& view, const Order&
     for (const Integrator integrator : visorder::integrators()) {
         RenderOptions render;
         render.integrator = integrator;
-        ProjectionRenderer renderer(context_, scene_, medium_, render);
+        ProjectionRenderer renderer(context_, scene_, function_, render);
         renderer.draw(view, order); // makes tables and programs
-        const double begin = now();
+        Stopwatch watch;
         const Image image = renderer.draw(view, order);
-        const double seconds = now() - begin;
+        const double seconds = watch.lap();
         results.push_back({name(integrator), image_errors(image, true_image, truth.near_silhouette), seconds});
     }
     return results;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "checking/image_errors.h"
+#include "checking/medium_integral.h"
 #include "graphics/context.h"
 #include "projection/renderer.h"
 #include "projection/transfer_function.h"
@@ -22,6 +23,9 @@ struct IntegratorResult {
     double seconds;     ///< a frame, of a sorted scene
 };
 
+/// A transfer function as the ray caster, which shares no code with the renderer, takes it.
+std::vector<MediumPoint> medium_of(const TransferFunction& function);
+
 /// Frames of one scene, drawn in whatever order, to see what an order does to the picture. The medium is the named
 /// transfer function "rainbow" over the scene's scalars, in which order shows: all of it is translucent, and near
 /// colours differ from far ones.
@@ -42,7 +46,7 @@ public:
 private:
     const Scene& scene_;
     Context context_;
-    TransferFunction medium_;
+    TransferFunction function_;
     std::unique_ptr<ProjectionRenderer> renderer_;
 };
 

@@ -6,6 +6,7 @@
 // MESH is a file, or a generated scene's name with a colon. VTK takes what its opacity function holds as extinction per
 // unit distance, so visorder's extinction times that distance is what it is given.
 
+#include "bench/frames.h"
 #include "bench/generated_scene.h"
 #include "bench/image_file.h"
 #include "checking/image_errors.h"
@@ -172,15 +173,11 @@ int run(int argc, char** argv)
     const std::string transfer = argc > 2 ? argv[2] : "cool-warm";
     const Scene scene(
         subdivide(mesh_name.find(':') != std::string::npos ? generate(mesh_name) : read_mesh(mesh_name).mesh).mesh);
-    const auto [low, high] = std::minmax_element(scene.mesh().scalars.begin(), scene.mesh().scalars.end());
-    const double diameter = glm::length(scene.bounds().max - scene.bounds().min);
-    const TransferFunction function = named_transfer_function(transfer, *low, *high, diameter / 10);
+    const TransferFunction function = named_transfer_function(transfer, scene, scene.diameter() / 10);
     double most = 0;
-    std::vector<MediumPoint> medium;
-    for (const OpticalPoint& point : function.points()) {
+    for (const OpticalPoint& point : function.points())
         most = std::max(most, point.extinction);
-        medium.push_back({point.scalar, point.extinction, point.colour});
-    }
+    const std::vector<MediumPoint> medium = medium_of(function);
 
     const vtkNew<vtkProjectedTetrahedraMapper> mapper;
     mapper->SetInputData(grid_of(scene.mesh()));

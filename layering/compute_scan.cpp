@@ -1,6 +1,6 @@
 #include "layering/item_flags.h"
 #include "layering/layer_scan.h"
-#include "layering/stopwatch.h"
+#include "scene/stopwatch.h"
 
 #include <algorithm>
 #include <limits>

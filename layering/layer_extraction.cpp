@@ -1,7 +1,7 @@
 #include "layering/layer_extraction.h"
 
-#include "layering/stopwatch.h"
 #include "scene/error.h"
+#include "scene/stopwatch.h"
 #include "sorting/strongly_connected.h"
 
 #include <algorithm>

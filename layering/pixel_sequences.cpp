@@ -1,6 +1,6 @@
 #include "layering/pixel_sequences.h"
 
-#include "layering/stopwatch.h"
+#include "scene/stopwatch.h"
 
 #include <algorithm>
 #include <array>

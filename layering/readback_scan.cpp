@@ -1,5 +1,5 @@
 #include "layering/layer_scan.h"
-#include "layering/stopwatch.h"
+#include "scene/stopwatch.h"
 
 #include <algorithm>
 #include <cstring>

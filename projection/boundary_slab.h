@@ -1,11 +1,14 @@
 #pragma once
 
+#include "projection/cell_triangles.h"
 #include "projection/screen.h"
 #include "projection/visible_cells.h"
 #include "scene/adjacency.h"
 #include "scene/scene.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <span>
@@ -53,6 +56,25 @@ void visit_with_slabs(const TriangleSources& from, CellId cell, PutSlab&& put_sl
     if (slabs)
         for (const BoundarySlab& slab : boundary_slabs(from, cell, true))
             put_slab(slab);
+}
+
+/// Has a writer put cells and their slabs, in this order, and lists the cells that are off the lattice; returns how
+/// many triangles the writer put. It has `put_slab(slab)`, `put_cell(cell)` and `count`.
+template <class Writer>
+std::size_t put_cells_with_slabs(const TriangleSources& from, std::span<const CellId> cells, Writer&& writer,
+                                 std::vector<CellOffLattice>& off_lattice)
+{
+    from.cells->visit(
+        cells,
+        [&](const VisibleCell& cell) {
+            visit_with_slabs(
+                from, cell.cell, [&](const BoundarySlab& slab) { writer.put_slab(slab); },
+                [&] { writer.put_cell(cell); });
+        },
+        [&](CellId cell) {
+            off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell});
+        });
+    return writer.count;
 }
 
 /// The gradient over the screen of what is linear on a triangle.

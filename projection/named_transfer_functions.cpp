@@ -1,7 +1,9 @@
 #include "projection/transfer_function.h"
 #include "scene/error.h"
+#include "scene/scene.h"
 #include "scene/srgb.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -136,6 +138,15 @@ TransferFunction named_transfer_function(std::string_view name, double lowest, d
         points.push_back(
             {std::lerp(lowest, highest, point.position), extinction_of(point.opacity, unit_length), point.colour});
     return TransferFunction(std::move(points));
+}
+
+TransferFunction named_transfer_function(std::string_view name, const Scene& scene, double unit_length)
+{
+    const auto& scalars = scene.mesh().scalars;
+    if (scalars.empty())
+        throw InputError("the mesh has no scalars to draw");
+    const auto [lowest, highest] = std::minmax_element(scalars.begin(), scalars.end());
+    return named_transfer_function(name, *lowest, *highest, unit_length);
 }
 
 } // namespace visorder

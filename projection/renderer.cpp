@@ -7,11 +7,11 @@
 #include "projection/silhouette_triangles.h"
 #include "projection/thick_triangles.h"
 #include "scene/error.h"
+#include "scene/stopwatch.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -23,13 +23,6 @@
 namespace visorder {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr std::size_t stretch_cells = 16384;
 constexpr std::size_t block_cells = 1024;
@@ -228,7 +221,7 @@ void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
 void ProjectionRenderer::prepare(const Order& order, std::size_t first, const CellTriangles& triangles,
                                  Stretch& stretch) const
 {
-    const auto start = Clock::now();
+    Stopwatch watch;
     const std::size_t cells = std::min(stretch_cells, order.back_to_front.size() - first);
     const std::size_t blocks = (cells + block_cells - 1) / block_cells;
     const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangles.triangle_bytes();
@@ -249,7 +242,7 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
         block.triangles = triangles.make(std::span(stretch.cells).subspan(begin, count),
                                          stretch.triangles.data() + b * block_bytes, block.off_lattice);
     });
-    stretch.seconds = seconds_since(start);
+    stretch.seconds = watch.lap();
 }
 
 void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles)
@@ -370,7 +363,7 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
                                      scene_->cell_count()));
     const Context::Current current(*context_);
     statistics_ = {};
-    auto start = Clock::now();
+    Stopwatch watch;
     const Screen screen(view, scene_->bounds());
     set_up(screen);
     points_.place(screen, lattice_, scene_->mesh().points, scalars_);
@@ -380,9 +373,8 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     gl.NamedBufferData(points_buffer_.id(), static_cast<GLsizeiptr>(points_.exact.size() * sizeof(glm::vec4)),
                        points_.exact.data(), GL_STREAM_DRAW);
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, points_binding, points_buffer_.id());
-    statistics_.place_s = seconds_since(start);
+    statistics_.place_s = watch.lap();
 
-    start = Clock::now();
     const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
     const TriangleSources sources{scene_,   &screen, &visible,
                                   lattice_, optics_, options_.integrator == Integrator::linear};
@@ -404,14 +396,13 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
         group.wait();
     }
     gl.Finish();
-    statistics_.draw_s = seconds_since(start);
+    statistics_.draw_s = watch.lap();
 
-    start = Clock::now();
     Image image{screen.size(), {}};
     image.pixels.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y));
     framebuffer_->read(0, {0, 0}, image.size, GL_RGBA, GL_FLOAT, image.pixels.data());
     context_->check();
-    statistics_.read_s = seconds_since(start);
+    statistics_.read_s = watch.lap();
     return image;
 }
 

@@ -184,18 +184,7 @@ std::size_t SilhouetteTriangles::triangle_bytes() const
 std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, std::byte* into,
                                       std::vector<CellOffLattice>& off_lattice) const
 {
-    Writer writer{*this, reinterpret_cast<float*>(into)};
-    from_.cells->visit(
-        cells,
-        [&](const VisibleCell& cell) {
-            visit_with_slabs(
-                from_, cell.cell, [&](const BoundarySlab& slab) { writer.put_slab(slab); },
-                [&] { writer.put_cell(cell); });
-        },
-        [&](CellId cell) {
-            off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell});
-        });
-    return writer.count;
+    return put_cells_with_slabs(from_, cells, Writer{*this, reinterpret_cast<float*>(into)}, off_lattice);
 }
 
 } // namespace visorder

@@ -89,18 +89,7 @@ std::size_t ThickTriangles::triangle_bytes() const
 std::size_t ThickTriangles::make(std::span<const CellId> cells, std::byte* into,
                                  std::vector<CellOffLattice>& off_lattice) const
 {
-    Writer writer{from_, into};
-    from_.cells->visit(
-        cells,
-        [&](const VisibleCell& cell) {
-            visit_with_slabs(
-                from_, cell.cell, [&](const BoundarySlab& slab) { writer.put_slab(slab); },
-                [&] { writer.put_cell(cell); });
-        },
-        [&](CellId cell) {
-            off_lattice.push_back({static_cast<std::uint32_t>(writer.count), cell});
-        });
-    return writer.count;
+    return put_cells_with_slabs(from_, cells, Writer{from_, into}, off_lattice);
 }
 
 } // namespace visorder

@@ -7,6 +7,8 @@
 
 namespace visorder {
 
+class Scene;
+
 /// The optical properties of a medium where the scalar has a value.
 struct OpticalPoint {
     double scalar;
@@ -56,5 +58,8 @@ std::span<const char* const> transfer_function_names();
 /// Where lowest = highest, constant: what the name has at its lowest scalar. Throws InputError for an unknown name
 /// (and lists those known), scalars that are not finite or descend, a unit length that is not above 0 and finite.
 TransferFunction named_transfer_function(std::string_view name, double lowest, double highest, double unit_length);
+
+/// The same over the scalars of a scene. Throws InputError, too, for a scene without any.
+TransferFunction named_transfer_function(std::string_view name, const Scene& scene, double unit_length);
 
 } // namespace visorder

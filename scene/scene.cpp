@@ -2,20 +2,16 @@
 
 #include "scene/numbering.h"
 #include "scene/overlapping_cells.h"
+#include "scene/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
+#include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace visorder {
 
 namespace {
-
-double now()
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 template <class Array>
 std::size_t size_of(const Array& array)
@@ -78,10 +74,10 @@ template <class T, class Make>
 const T& Scene::derive(const Derived<T>& slot, Structure structure, Make&& make) const
 {
     return slot.get([&] {
-        const double begin = now();
+        Stopwatch watch;
         T value = make();
         const std::lock_guard lock(records_mutex_);
-        records_.push_back({structure, now() - begin, bytes(value)});
+        records_.push_back({structure, watch.lap(), bytes(value)});
         return value;
     });
 }
@@ -89,7 +85,7 @@ const T& Scene::derive(const Derived<T>& slot, Structure structure, Make&& make)
 Scene::Scene(Mesh mesh) : mesh_(std::move(mesh))
 {
     validate(mesh_);
-    const double begin = now();
+    Stopwatch watch;
     Numbering numbering = renumber(mesh_);
     caller_cells_ = std::move(numbering.caller_cells);
     caller_points_ = std::move(numbering.caller_points);
@@ -97,7 +93,7 @@ Scene::Scene(Mesh mesh) : mesh_(std::move(mesh))
         bounds_.add(p);
     tetrahedral_ = std::all_of(mesh_.shapes.begin(), mesh_.shapes.end(),
                                [](CellShape shape) { return shape == CellShape::tetrahedron; });
-    records_.push_back({Structure::numbering, now() - begin, size_of(caller_cells_) + size_of(caller_points_)});
+    records_.push_back({Structure::numbering, watch.lap(), size_of(caller_cells_) + size_of(caller_points_)});
 }
 
 const Adjacency& Scene::adjacency() const
@@ -153,6 +149,12 @@ std::vector<StructureRecord> Scene::derived() const
 {
     const std::lock_guard lock(records_mutex_);
     return records_;
+}
+
+double Scene::diameter() const
+{
+    const double diagonal = glm::length(bounds_.max - bounds_.min);
+    return diagonal > 0 ? diagonal : 1;
 }
 
 } // namespace visorder

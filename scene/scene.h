@@ -41,6 +41,9 @@ public:
     bool is_tetrahedral() const { return tetrahedral_; }
     const Box& bounds() const { return bounds_; }
 
+    /// The diagonal of `bounds`; 1 where all points coincide, so that it may serve as a unit of length.
+    double diameter() const;
+
     /// caller_cells()[i] is the number that inner cell i had in the mesh the Scene was made from; likewise for points.
     std::span<const CellId> caller_cells() const { return caller_cells_; }
     std::span<const PointId> caller_points() const { return caller_points_; }

@@ -1,6 +1,7 @@
 #include "bench/generated_scene.h"
 
 #include "scene/error.h"
+#include "scene/exact_predicates.h"
 #include "scene/scene.h"
 #include "scene/subdivision.h"
 #include "tests/bench/face_relations.h"

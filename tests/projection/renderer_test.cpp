@@ -1,5 +1,6 @@
 #include "projection/renderer.h"
 
+#include "bench/frames.h"
 #include "bench/generated_scene.h"
 #include "bench/views.h"
 #include "checking/image_errors.h"
@@ -44,8 +45,7 @@ Scene& scene_of(const char* specification)
 
 TransferFunction function_for(const Scene& scene, const char* name)
 {
-    const auto [low, high] = std::minmax_element(scene.mesh().scalars.begin(), scene.mesh().scalars.end());
-    return named_transfer_function(name, *low, *high, glm::length(scene.bounds().max - scene.bounds().min) / 10);
+    return named_transfer_function(name, scene, scene.diameter() / 10);
 }
 
 Order order_for(const Scene& scene, const View& view)
@@ -75,7 +75,7 @@ View inside(const Scene& scene, double view_angle, glm::ivec2 size)
     glm::dvec3 eye(0);
     for (const PointId p : v)
         eye += 0.25 * scene.mesh().points[p];
-    const double radius = glm::length(scene.bounds().max - scene.bounds().min) / 2;
+    const double radius = scene.diameter() / 2;
     return look_at(eye, eye + glm::dvec3(0.3, 0.2, 1) * radius, radius, view_angle, size);
 }
 
@@ -133,9 +133,7 @@ Way steady_way(const Scene& scene, const View& view, int x, int y, double unit)
 
 RayCast truth(const Scene& scene, const TransferFunction& function, const View& view)
 {
-    std::vector<MediumPoint> medium;
-    for (const OpticalPoint& p : function.points())
-        medium.push_back({p.scalar, p.extinction, p.colour});
+    const std::vector<MediumPoint> medium = medium_of(function);
     RayCastOptions options;
     options.silhouette_margin = 0.25;
     return cast_rays(scene, medium, view, options);
@@ -147,7 +145,7 @@ TEST(Renderer, HasNoCracksAndNoDoubleHits)
     for (const char* scene_name : {"carved:700", "slivers:400", "grid:400", "reactor:600"})
         for (const Projector projector : projectors()) {
             const Scene& scene = scene_of(scene_name);
-            const double unit = glm::length(scene.bounds().max - scene.bounds().min) / 10;
+            const double unit = scene.diameter() / 10;
             const double extinction = extinction_of(0.3, unit);
             const TransferFunction function({{0, extinction, glm::dvec3(0.5)}});
             const RenderOptions options = with(projector, Integrator::exact);
@@ -204,7 +202,7 @@ TEST(Renderer, IntegratorsComeNearerToTheRayCasterOneByOne)
 {
     const Scene& scene = scene_of("carved:3000");
     // As narrow as the methods bear that look at vertices alone: a peak between two of them they do not see.
-    const double unit = glm::length(scene.bounds().max - scene.bounds().min) / 10;
+    const double unit = scene.diameter() / 10;
     const double low = extinction_of(0.02, unit);
     const TransferFunction function(
         {{0.25, low, {0.2, 0.3, 0.9}}, {0.45, extinction_of(0.9, unit), {1, 0.3, 0.1}}, {0.65, low, {0.9, 0.8, 0.2}}});
