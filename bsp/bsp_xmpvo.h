@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bsp/boundary_cells.h"
 #include "bsp/bsp_tree.h"
 #include "bsp/corner_heights.h"
 #include "bsp/face_corners.h"
@@ -12,45 +13,11 @@
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
 
-#include <bit>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace visorder {
-
-/// The cells that own the faces of a BSP tree, numbered in their order.
-class BoundaryCells {
-public:
-    /// `faces` are ascending by cell.
-    BoundaryCells(std::span<const CellFace> faces, CellId cells);
-
-    std::size_t count() const { return first_face_.size() - 1; }
-    std::uint32_t of_face(std::uint32_t face) const { return of_face_[face]; }
-    /// Of a cell that is one of them.
-    std::size_t of_cell(CellId cell) const
-    {
-        const std::uint64_t below = bits_[cell / 64] & ((std::uint64_t{1} << cell % 64) - 1);
-        return before_[cell / 64] + static_cast<std::size_t>(std::popcount(below));
-    }
-    /// The faces of one of them, from the first to before the second.
-    std::pair<std::uint32_t, std::uint32_t> faces(std::size_t boundary_cell) const
-    {
-        return {first_face_[boundary_cell], first_face_[boundary_cell + 1]};
-    }
-    std::size_t bytes() const
-    {
-        return bits_.capacity() * sizeof(std::uint64_t) +
-               (before_.capacity() + first_face_.capacity() + of_face_.capacity()) * sizeof(std::uint32_t);
-    }
-
-private:
-    std::vector<std::uint64_t> bits_;   // a cell: whether it is one
-    std::vector<std::uint32_t> before_; // how many there are before each 64 cells
-    std::vector<std::uint32_t> first_face_;
-    std::vector<std::uint32_t> of_face_;
-};
 
 /// BSP-XMPVO (Comba, Klosowski, Max, Mitchell, Silva, Williams 1999; Max, Williams, Silva 2000, section III): a
 /// topological sort of the cells over the relations across interior faces, merged with the order in which the walk of a
@@ -77,14 +44,29 @@ private:
     template <int row, class State>
     friend class BspMerge;
 
+    // Of a face at an eye.
+    static constexpr std::uint8_t exit_role = 1;
+    static constexpr std::uint8_t entry_role = 2;
+
+    static constexpr std::uint16_t slab_count = 64; // of the scene's depth
+    static constexpr std::uint16_t no_slab = slab_count;
+    static constexpr std::uint32_t no_cell = 0xffffffffu;
+
     void walk(const glm::dvec4& eye);
     // What the eye makes of each of the tree's faces.
     void look_at_faces(const glm::dvec4& eye);
+    // To before any cell is listed.
+    void reset_pending();
     std::uint8_t role(std::uint32_t face, const glm::dvec4& eye) const;
     void set_boxes(std::uint32_t face, const ProjectionCharts& charts);
+    // How many pairs of faces were tested.
+    struct Tests {
+        std::size_t all = 0;
+        std::size_t exact = 0;
+    };
     // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
-    bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
-    bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye);
+    bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye, Tests& tests) const;
+    bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye, Tests& tests) const;
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
@@ -113,12 +95,16 @@ private:
 
     std::vector<std::uint32_t> deferred_; // of a slab: the ready cells that are still to look for what they cover
 
+    // Of one step.
+    std::vector<std::uint32_t> looking_;        // the boundary cells that look for what they cover,
+    std::vector<std::uint32_t> covered_;        // and a face that each found
+    std::vector<std::uint32_t> listed_in_step_; // boundary cells
+
     LargeArray<CellId> queue_; // of cells that are ready
     ImageBoxes boxes_;
     PendingFaces pending_;
 
-    std::size_t test_count_ = 0;
-    std::size_t exact_test_count_ = 0;
+    Tests tests_;
     std::size_t relation_count_ = 0;
 
     BoundaryRelations all_relations_;

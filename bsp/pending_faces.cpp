@@ -72,17 +72,17 @@ PendingFaces::Grid PendingFaces::grid(const Extent& extent, std::size_t first_li
 void PendingFaces::fill(const Grid& grid)
 {
     lists_.resize(grid.first_list + 1 + std::size_t{grid.columns} * grid.rows);
-    std::array<std::uint32_t, depth_steps> places{}; // of the faces of a depth
+    std::array<std::uint32_t, rank_count> places{}; // of the faces of a rank
     for (const Entry& entry : faces_) {
-        ++places[entry.farthest()];
+        ++places[entry.first_rank >> rank_shift];
         each_list(grid, entry, [&](std::size_t list) { ++lists_[list].end; });
     }
     std::uint32_t place = 0;
-    for (std::size_t depth = depth_steps; depth-- > 0;)
-        place += std::exchange(places[depth], place);
-    farthest_first_.resize(faces_.size());
+    for (std::uint32_t& of_rank : places)
+        place += std::exchange(of_rank, place);
+    by_rank_.resize(faces_.size());
     for (std::uint32_t i = 0; i < faces_.size(); ++i)
-        farthest_first_[places[faces_[i].farthest()]++] = i;
+        by_rank_[places[faces_[i].first_rank >> rank_shift]++] = i;
 
     auto end = static_cast<std::uint32_t>(entries_.size());
     for (std::size_t i = grid.first_list; i < lists_.size(); ++i) {
@@ -90,26 +90,15 @@ void PendingFaces::fill(const Grid& grid)
         end += std::exchange(lists_[i].end, end);
     }
     entries_.resize(end);
-    for (std::uint32_t i : farthest_first_)
+    for (std::uint32_t i : by_rank_)
         each_list(grid, faces_[i], [&](std::size_t list) { entries_[lists_[list].end++] = faces_[i]; });
-}
-
-// Takes those that are gone out of what the last search looked at.
-void PendingFaces::clean(List& list)
-{
-    std::uint32_t kept = list.nearest;
-    for (std::uint32_t i = kept; i-- > list.begin;)
-        if (is_gone_[entries_[i].face] == 0)
-            entries_[--kept] = entries_[i];
-    list.begin = kept;
-    list.looks = 0;
 }
 
 std::size_t PendingFaces::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return size_of(grids_) + size_of(lists_) + size_of(entries_) + size_of(is_gone_) + size_of(sought_) +
-           size_of(faces_) + size_of(farthest_first_);
+           size_of(faces_) + size_of(by_rank_);
 }
 
 } // namespace visorder

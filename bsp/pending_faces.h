@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -54,7 +55,8 @@ struct Ranks {
 };
 
 /// Entry faces by where they are in the image and in the walk of a BSP tree, to find those that an exit face may cover:
-/// a grid over each chart, whose squares list their faces farthest first. A face is pending until its cell is listed.
+/// a grid over each chart, whose squares list their faces in the order of the walk. A face is pending until its cell is
+/// listed.
 ///
 /// Boxes are kept in 16-bit numbers, to which single precision is mapped without changing its order: what meets there
 /// meets here.
@@ -69,7 +71,8 @@ public:
 
     /// Calls visit(face) for each pending one that face `face` may cover, once a chart at most, until it returns false:
     /// their boxes meet, not all of the entry face is nearer, and the walk came to it before it left `face`. In each
-    /// square the nearest ones come first. Some time before, it calls prepare(face).
+    /// square those that the walk came to last come first, if there are few. Some time before, it calls prepare(face).
+    /// Any number of threads may search side by side.
     template <class Prepare, class Visit>
     void search(std::uint32_t face, Prepare&& prepare, Visit&& visit);
 
@@ -78,12 +81,13 @@ public:
 private:
     // A face over more squares of the grid than this is kept apart, in a list that all searches go through.
     static constexpr std::size_t most_squares = 64;
-    // Entries of a list that searches look at before those that are gone are taken out.
-    static constexpr std::uint32_t looks_between_cleanings = 64;
-    static constexpr std::uint32_t looks_at_once = 16;
 
     using Number = std::uint16_t;
     static constexpr Number most = 0xffff;
+    // Lists are in the order of ranks, to 12 bits.
+    static constexpr int rank_shift = 4;
+    static constexpr std::size_t rank_count = 0x10000 >> rank_shift;
+    static constexpr std::size_t visits_at_once = 16;
 
     // From single precision to numbers, along one axis.
     struct Scale {
@@ -106,14 +110,13 @@ private:
 
         Number right() const { return static_cast<Number>(most - most_minus_right); }
         Number high() const { return static_cast<Number>(most - most_minus_high); }
-        Number farthest() const { return static_cast<Number>(most - most_minus_farthest); }
     };
     // What entries of a list are asked for: their first six numbers less `from`, modulo 2^16, are to be at most
     // `up_to`. Four numbers are in one, the first lowest.
     struct Query {
         std::uint64_t from;
         std::array<std::uint64_t, 2> up_to;
-        Number most_minus_nearest;
+        unsigned last_rank; // as lists are ordered
 
         bool holds(const Entry& entry) const;
     };
@@ -162,12 +165,11 @@ private:
             };
             const Number left = begin(at_column, column_shift, at_column == column(by.left));
             const Number low = begin(at_row, row_shift, at_row == row(by.low));
-            const auto most_minus_nearest = static_cast<Number>(most - by.nearest);
             return {four(left, low, 0, 0),
                     {four(static_cast<Number>(by.right - left), static_cast<Number>(by.high - low),
                           static_cast<Number>(most - by.left), static_cast<Number>(most - by.low)),
-                     four(most_minus_nearest, by.last_rank, most, most)},
-                    most_minus_nearest};
+                     four(static_cast<Number>(most - by.nearest), by.last_rank, most, most)},
+                    unsigned{by.last_rank} >> rank_shift};
         }
         std::uint32_t column(Number number) const { return std::uint32_t{number} >> column_shift; }
         std::uint32_t row(Number number) const { return std::uint32_t{number} >> row_shift; }
@@ -177,10 +179,8 @@ private:
         }
     };
     struct List {
-        std::uint32_t begin = 0; // in entries_; moves as faces are gone
+        std::uint32_t begin = 0; // in entries_; searches move it on where faces are gone
         std::uint32_t end = 0;
-        std::uint32_t nearest = 0; // the end of what the last search looked at
-        std::uint32_t looks = 0;
     };
     // Of the faces in one chart.
     struct Extent {
@@ -194,7 +194,6 @@ private:
 
     static Grid grid(const Extent& extent, std::size_t first_list);
     void fill(const Grid& grid);
-    void clean(List& list);
 
     // The lists that a face is in.
     template <class Visit>
@@ -224,7 +223,7 @@ private:
 
     // Of one chart, while it is filled.
     std::vector<Entry> faces_;
-    std::vector<std::uint32_t> farthest_first_; // in faces_
+    std::vector<std::uint32_t> by_rank_; // in faces_
 };
 
 #if defined(__SSE2__)
@@ -289,32 +288,36 @@ bool PendingFaces::look_through(List& list, const Query& query, Prepare&& prepar
 {
     const Entry* const entries = entries_.data();
     const std::uint8_t* const is_gone = is_gone_.data();
-    // Searches come nearer and nearer, mostly.
-    std::uint32_t at = std::max(list.nearest, list.begin);
-    while (at < list.end && entries[at].most_minus_farthest <= query.most_minus_nearest)
-        ++at;
-    while (at > list.begin && entries[at - 1].most_minus_farthest > query.most_minus_nearest)
-        --at;
-    list.nearest = at;
-    list.looks += at - list.begin;
-    while (at > list.begin) {
-        const std::uint32_t stop = at - list.begin > looks_at_once ? at - looks_at_once : list.begin;
-        std::array<std::uint32_t, looks_at_once> found;
-        std::size_t count = 0;
-        // Without branches on what an entry is like: it is as good as random.
-        while (at > stop) {
-            const Entry& entry = entries[--at];
-            found[count] = entry.face;
-            count += static_cast<std::size_t>(query.holds(entry) & (is_gone[entry.face] == 0));
-        }
+    // A hint that threads need not agree on.
+    const std::atomic_ref<std::uint32_t> moving_begin(list.begin);
+    const std::uint32_t begin = moving_begin.load(std::memory_order_relaxed);
+    std::uint32_t at = begin;
+    // Without branches on what an entry is like: it is as good as random.
+    std::array<std::uint32_t, visits_at_once> found;
+    std::size_t count = 0;
+    bool go_on = true;
+    const auto visit_found = [&] {
         std::for_each_n(found.begin(), count, prepare);
-        for (std::size_t i = 0; i < count; ++i)
-            if (!visit(found[i]))
+        while (go_on && count > 0)
+            go_on = visit(found[--count]);
+        count = 0;
+    };
+    for (; at < list.end && (entries[at].first_rank >> rank_shift) <= query.last_rank; ++at) {
+        if (count == visits_at_once) [[unlikely]] {
+            visit_found();
+            if (!go_on)
                 return false;
+        }
+        found[count] = entries[at].face;
+        count += static_cast<std::size_t>(query.holds(entries[at]) & (is_gone[entries[at].face] == 0));
     }
-    if (list.looks >= looks_between_cleanings)
-        clean(list);
-    return true;
+    visit_found();
+    std::uint32_t gone = begin;
+    while (gone < at && is_gone[entries[gone].face] != 0)
+        ++gone;
+    if (gone != begin)
+        moving_begin.store(gone, std::memory_order_relaxed);
+    return go_on;
 }
 
 template <class Prepare, class Visit>

@@ -447,7 +447,7 @@ TEST_P(ExactSorter, RemembersNothingOfEarlierEyes)
 
 TEST_P(ExactSorter, GivesOneOrderForAnyNumberOfThreads)
 {
-    for (const char* specification : {"carved:8000", "reactor:3000", "pinwheel:60", "shells:1000"}) {
+    for (const char* specification : {"carved:40000", "reactor:3000", "pinwheel:60", "shells:1000"}) {
         const Scene scene(generate(specification));
         for (const NamedView& view : random_views(scene, 2, 4, {64, 64})) {
             const Order expected = sorted(*make(scene), view.view.eye);
