@@ -35,7 +35,7 @@ struct RenderStatistics {
     double draw_s = 0;          ///< from the first command to the last pixel, what is prepared meanwhile included
     double read_s = 0;          ///< the image back
     std::size_t triangles = 0;  ///< drawn
-    std::size_t near_cells = 0; ///< that no triangles stand for, because they reach up to the eye or far off the image
+    std::size_t near_cells = 0; ///< that no triangles stand for: see NearCell
 };
 
 /// Draws a scene of tetrahedra by projecting one cell after another, in the sequence of an Order: what differs between
@@ -87,7 +87,6 @@ private:
     Program near_cell_program_;
     FunctionTextures function_;
     GlObject no_attributes_;
-    GlObject points_buffer_;
     UploadRing ring_;
     std::optional<Framebuffer> framebuffer_;
     ScreenPoints points_;
