@@ -111,6 +111,12 @@ void Program::set(const char* uniform, double value)
     context_->gl().ProgramUniform1d(program_.id(), location(uniform), value);
 }
 
+void Program::set(const char* uniform, std::span<const glm::dvec2> values)
+{
+    context_->gl().ProgramUniform2dv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),
+                                     &values.data()->x);
+}
+
 void Program::set(const char* uniform, std::span<const glm::dvec3> values)
 {
     context_->gl().ProgramUniform3dv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),

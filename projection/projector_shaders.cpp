@@ -198,44 +198,92 @@ void main()
 
 // See NearCell.
 constexpr const char* near_cell_text = R"(
-uniform dvec3 offsets[4], slopes[4];
-uniform dvec3 scalar_forms[2];
+uniform dvec3 places[4];
+uniform dvec2 values[4];
 uniform vec2 scalar_range;
 uniform double first_depth, inverse_depth;
 
-// Which side a ray in a face's plane is on: that to which it goes when it is moved aside by (e, e^2), e little.
-bool beyond(dvec3 offset, dvec3 slope)
+dvec3 from_ray[4];
+
+double area(int i, int k)
 {
-    if (offset.x != 0.0 || slope.x != 0.0)
-        return offset.x != 0.0 ? offset.x > 0.0 : slope.x > 0.0;
-    return offset.y != 0.0 ? offset.y > 0.0 : slope.y > 0.0;
+    return from_ray[i].x * from_ray[k].y - from_ray[k].x * from_ray[i].y;
+}
+
+// On which side of the edge the ray passes. One that meets it is moved aside by (e, e^2), with e little.
+bool is_left(int i, int k)
+{
+    dvec3 a = from_ray[i], b = from_ray[k];
+    double forth = a.x * b.y, back = b.x * a.y;
+    if (forth != back)
+        return forth > back;
+    forth = b.z * a.y;
+    back = a.z * b.y;
+    if (forth != back)
+        return forth > back;
+    return a.z * b.x >= b.z * a.x;
+}
+
+// Depth and scalar where the ray meets a face.
+dvec2 met(int i, int j, int k)
+{
+    dvec3 weights = abs(dvec3(area(j, k), area(k, i), area(i, j)));
+    double sum = weights.x + weights.y + weights.z;
+    if (sum == 0.0) {
+        weights = dvec3(1.0);
+        sum = 3.0;
+    }
+    return (weights.x * values[i] + weights.y * values[j] + weights.z * values[k]) / sum;
 }
 
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    dvec3 place = dvec3(pixel, 1.0);
-    double first = first_depth;
-    double last = 1e300LF;
-    for (int i = 0; i < 4; ++i) {
-        double offset = dot(offsets[i], place);
-        double slope = dot(slopes[i], place);
-        if (slope < 0.0)
-            first = max(first, -offset / slope);
-        else if (slope > 0.0)
-            last = min(last, -offset / slope);
-        else if (offset > 0.0 || (offset == 0.0 && beyond(offsets[i], slopes[i])))
-            last = first;
+    for (int i = 0; i < 4; ++i)
+        from_ray[i] = dvec3(places[i].x - pixel.x * places[i].z, places[i].y - pixel.y * places[i].z, places[i].z);
+    bool left01 = is_left(0, 1), left02 = is_left(0, 2), left03 = is_left(0, 3);
+    bool left12 = is_left(1, 2), left13 = is_left(1, 3), left23 = is_left(2, 3);
+    dvec2 one = dvec2(0.0), other = dvec2(0.0), opposite = dvec2(0.0);
+    int count = 0;
+    if (left12 == left23 && left12 != left13) {
+        one = met(1, 2, 3);
+        opposite = values[0];
+        ++count;
     }
-    if (!(last > first))
+    if (left02 == left23 && left02 != left03) {
+        other = one;
+        one = met(0, 2, 3);
+        opposite = values[1];
+        ++count;
+    }
+    if (left01 == left13 && left01 != left03) {
+        other = one;
+        one = met(0, 1, 3);
+        opposite = values[2];
+        ++count;
+    }
+    if (left01 == left12 && left01 != left02) {
+        other = one;
+        one = met(0, 1, 2);
+        opposite = values[3];
+        ++count;
+    }
+    if (count == 0)
         discard;
-    double offset = dot(scalar_forms[0], place);
-    double slope = dot(scalar_forms[1], place);
+    // Only with the eye at a point is a single face passed: there the cell begins.
+    if (count == 1)
+        other = opposite;
+    dvec2 enter = one.x < other.x ? one : other;
+    dvec2 leave = one.x < other.x ? other : one;
+    double first = max(enter.x, first_depth);
+    if (!(leave.x > first))
+        discard;
+    double way = (first - enter.x) / (leave.x - enter.x);
     double first_scale = 1.0 / (1.0 - first * inverse_depth);
-    double last_scale = 1.0 / (1.0 - last * inverse_depth);
-    float front = clamp(float((offset + slope * first) * first_scale), scalar_range.x, scalar_range.y);
-    float back = clamp(float((offset + slope * last) * last_scale), scalar_range.x, scalar_range.y);
-    float len = float((last - first) * first_scale * last_scale) * length_per_depth(pixel);
+    double last_scale = 1.0 / (1.0 - leave.x * inverse_depth);
+    float front = clamp(float((enter.y + way * (leave.y - enter.y)) * first_scale), scalar_range.x, scalar_range.y);
+    float back = clamp(float(leave.y * last_scale), scalar_range.x, scalar_range.y);
+    float len = float((leave.x - first) * first_scale * last_scale) * length_per_depth(pixel);
 #ifdef OPTICS
     // Where a ray begins inside the cell there is no vertex whose colour could be taken.
     result = light_of(front, back, len, optics_at(front), optics_at(back));

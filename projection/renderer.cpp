@@ -304,9 +304,8 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
         placed ? near_cell_on_screen(screen, on_screen, scalars) : near_cell(screen, in_space, scalars);
     if (!near)
         return;
-    near_cell_program_.set("offsets", near->offsets);
-    near_cell_program_.set("slopes", near->slopes);
-    near_cell_program_.set("scalar_forms", std::array<glm::dvec3, 2>{near->scalar_offset, near->scalar_slope});
+    near_cell_program_.set("places", near->places);
+    near_cell_program_.set("values", near->values);
     near_cell_program_.set("first_depth", near->first_depth);
     near_cell_program_.set("inverse_depth", near->inverse_distance);
     near_cell_program_.set("scalar_range", near->scalar_range);

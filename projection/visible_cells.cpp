@@ -30,7 +30,7 @@ bool holds(const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c, const 
 constexpr int most_centres_tried = 6;
 
 // Of the length of a ray's way through a cell, as a part of the scene's diameter.
-constexpr double tolerance = 4e-6;
+constexpr double tolerance = 1e-5;
 // What single precision makes of k.r: three roundings, each of 2^-24 at most.
 constexpr double rounding = 3.0 / (1 << 24);
 // Of the distances before the eye of a cell's points: projective depths are interpolated between them.
