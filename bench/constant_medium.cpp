@@ -65,8 +65,8 @@ std::vector<NamedView> twenty_views(const Scene& scene, glm::ivec2 size)
     glm::dvec3 eye(0);
     for (const PointId p : scene.mesh().cell(scene.cell_count() / 3))
         eye += 0.25 * scene.mesh().points[p];
-    views.push_back({"inside, at 120 degrees",
-                     look_at(eye, eye + glm::dvec3(0.3, 0.2, 1) * radius, radius, 120, size)});
+    views.push_back(
+        {"inside, at 120 degrees", look_at(eye, eye + glm::dvec3(0.3, 0.2, 1) * radius, radius, 120, size)});
     constexpr std::size_t wanted = 20;
     const int more = static_cast<int>(wanted - std::min(wanted, views.size()));
     for (NamedView& view : random_views(scene, more, 5, size))

@@ -14,10 +14,9 @@ using namespace visorder;
 // pixel is off by more than 1e-4.
 int main(int argc, char** argv)
 {
-    std::vector<std::string> scenes{"delaunay:3000", "carved:3000", "grid:3000",     "fin:3000",
-                                    "post:3000",     "gear:3000",   "reactor:3000",  "tori:3000",
-                                    "cavity:3000",   "pinwheel",    "slivers:3000",  "offset:3000",
-                                    "contact:3000"};
+    std::vector<std::string> scenes{"delaunay:3000", "carved:3000",  "grid:3000",   "fin:3000",    "post:3000",
+                                    "gear:3000",     "reactor:3000", "tori:3000",   "cavity:3000", "pinwheel",
+                                    "slivers:3000",  "offset:3000",  "contact:3000"};
     std::vector<std::string> wanted_projectors;
     int side = 128;
     bool every_view = false;
@@ -59,8 +58,7 @@ int main(int argc, char** argv)
                     sorter->sort(view.view, order);
                     const Image image = renderer.draw(view.view, order);
                     near_cells += renderer.statistics().near_cells;
-                    const TransmittanceErrors errors =
-                        transmittance_errors(scene, view.view, image, tolerance);
+                    const TransmittanceErrors errors = transmittance_errors(scene, view.view, image, tolerance);
                     if (every_view)
                         print(errors, view.name);
                     worst.beyond += errors.beyond;

@@ -14,8 +14,8 @@ namespace visorder {
 /// lattice; or one with a face that single precision does not see well (see VisibleCells).
 ///
 /// A ray passes a face if it passes all its edges on one side. All cells around an edge have its two points in the same
-/// order and so agree, whatever is lost to rounding, on which side that is: no ray slips between two of them. Depths are
-/// means of the points' depths with weights of one sign: no cancellation, however flat the cell.
+/// order and so agree, whatever is lost to rounding, on which side that is: no ray slips between two of them. Depths
+/// are means of the points' depths with weights of one sign: no cancellation, however flat the cell.
 struct NearCell {
     std::array<glm::dvec3, 4> places; ///< x, y, w: the ray through pixel (px, py) has the offset (x - px w, y - py w)
     std::array<glm::dvec2, 4> values; ///< depth, and the scalar times 1 - depth inverse_distance

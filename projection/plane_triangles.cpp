@@ -12,14 +12,14 @@ namespace {
 
 // What the vertex shader reads: see projector_shaders.cpp.
 struct PlaneRecord {
-    glm::vec2 place;       // in pixels, positive; negative x: of a quad; negative y: entry and exit are exchanged
-    glm::vec2 beside;      // the rest of the place, less than a lattice step
-    glm::vec4 depth;       // base, slope, rise
-    glm::vec4 scalar;      // likewise
-    glm::vec4 offset;      // of four planes
-    glm::vec4 slope_x;     // likewise
-    glm::vec4 slope_y;     // likewise
-    glm::vec2 corners[3];  // of the triangle
+    glm::vec2 place;      // in pixels, positive; negative x: of a quad; negative y: entry and exit are exchanged
+    glm::vec2 beside;     // the rest of the place, less than a lattice step
+    glm::vec4 depth;      // base, slope, rise
+    glm::vec4 scalar;     // likewise
+    glm::vec4 offset;     // of four planes
+    glm::vec4 slope_x;    // likewise
+    glm::vec4 slope_y;    // likewise
+    glm::vec2 corners[3]; // of the triangle
     glm::vec2 unused{0};
 };
 
@@ -101,8 +101,7 @@ struct PlaneTriangles::Writer {
             if (!from.cells->covers_a_centre(triangle))
                 continue;
             if (!ready) {
-                const Thickness t =
-                    thickness_of(cell, values_of(cell, from.scalars, from.screen->inverse_distance()));
+                const Thickness t = thickness_of(cell, values_of(cell, from.scalars, from.screen->inverse_distance()));
                 const glm::dvec2 place(cell.at[0].x, cell.at[0].y);
                 const glm::dvec2 on_lattice(std::round(place.x * steps) / steps, std::round(place.y * steps) / steps);
                 record.place = glm::vec2(on_lattice) + place_offset;

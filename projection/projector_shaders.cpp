@@ -243,36 +243,39 @@ void main()
         from_ray[i] = dvec3(places[i].x - pixel.x * places[i].z, places[i].y - pixel.y * places[i].z, places[i].z);
     bool left01 = is_left(0, 1), left02 = is_left(0, 2), left03 = is_left(0, 3);
     bool left12 = is_left(1, 2), left13 = is_left(1, 3), left23 = is_left(2, 3);
-    dvec2 one = dvec2(0.0), other = dvec2(0.0), opposite = dvec2(0.0);
-    int count = 0;
+    dvec2 one = dvec2(0.0), other = dvec2(0.0);
+    int count = 0, opposite = 0;
     if (left12 == left23 && left12 != left13) {
         one = met(1, 2, 3);
-        opposite = values[0];
+        opposite = 0;
         ++count;
     }
     if (left02 == left23 && left02 != left03) {
         other = one;
         one = met(0, 2, 3);
-        opposite = values[1];
+        opposite = 1;
         ++count;
     }
     if (left01 == left13 && left01 != left03) {
         other = one;
         one = met(0, 1, 3);
-        opposite = values[2];
+        opposite = 2;
         ++count;
     }
     if (left01 == left12 && left01 != left02) {
         other = one;
         one = met(0, 1, 2);
-        opposite = values[3];
+        opposite = 3;
         ++count;
     }
     if (count == 0)
         discard;
-    // Only with the eye at a point is a single face passed: there the cell begins.
-    if (count == 1)
-        other = opposite;
+    // A ray from one of the cell's points passes the face opposite alone: there the cell begins.
+    if (count == 1) {
+        if (from_ray[opposite] != dvec3(0.0))
+            discard;
+        other = values[opposite];
+    }
     dvec2 enter = one.x < other.x ? one : other;
     dvec2 leave = one.x < other.x ? other : one;
     double first = max(enter.x, first_depth);

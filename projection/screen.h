@@ -35,8 +35,8 @@ public:
 
     ScreenPoint seen(const glm::dvec3& point) const;
 
-    /// A point that may be beside or behind the eye. It is on the ray through pixel (px, py), or, behind the eye, on its
-    /// prolongation, if place.x = px place.z and place.y = py place.z.
+    /// A point that may be beside or behind the eye. It is on the ray through pixel (px, py), or, behind the eye, on
+    /// its prolongation, if place.x = px place.z and place.y = py place.z.
     struct Anywhere {
         glm::dvec3 place;
         double depth; ///< z, not projective; from the plane through a perspective eye

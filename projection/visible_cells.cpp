@@ -179,8 +179,7 @@ VisibleCells::Sight VisibleCells::judge(VisibleCell& cell) const
 }
 
 // Whether a pixel's centre is so close to the line from a to b, between these or up to a third point near that line.
-bool VisibleCells::centre_near(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& third,
-                               double distance) const
+bool VisibleCells::centre_near(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& third, double distance) const
 {
     const int along = std::abs(b.x - a.x) >= std::abs(b.y - a.y) ? 0 : 1;
     const int across = 1 - along;
