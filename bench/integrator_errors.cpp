@@ -5,20 +5,16 @@
 // last asks for a peak that linear and exponential can see: they know the vertices alone, and of a peak narrower than
 // what the scalar changes by along a cell either sees as little as the other. So that change is printed too.
 //
-//     visorder_integrator_errors MESH... [--function NAME|peak:WIDTH]... [--size N]
+//     visorder_integrator_errors MESH[@ARRAY]... [--function NAME|peak:WIDTH]... [--size N]
 
 #include "bench/frames.h"
-#include "bench/generated_scene.h"
+#include "bench/volume.h"
 #include "checking/image_errors.h"
 #include "checking/ray_caster.h"
 #include "projection/renderer.h"
 #include "scene/error.h"
 #include "scene/stopwatch.h"
-#include "scene/subdivision.h"
 #include "sorting/registry.h"
-#ifdef VISORDER_WITH_VTK
-#include "vtk/read_mesh.h"
-#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -42,24 +38,11 @@ constexpr double exact_rmse = 1e-4;
 constexpr double exact_largest = 5e-3;
 constexpr double preintegrated_rmse = 2e-3;
 
-Mesh mesh_named(const std::string& name)
-{
-    if (name.find(':') != std::string::npos)
-        return generate(name);
-#ifdef VISORDER_WITH_VTK
-    return read_mesh(name).mesh;
-#else
-    throw InputError(fmt::format("{}: this build reads no files", name));
-#endif
-}
-
 // A peak of opacity 0.9 in a medium of 0.02 and two other colours, around the median of the points' scalars; from foot
 // to foot it is as wide as `width` of their range.
 TransferFunction peak(const Scene& scene, double width)
 {
     std::vector<float> scalars = scene.mesh().scalars;
-    if (scalars.empty())
-        throw InputError("the mesh has no scalars to draw");
     const auto [lowest, highest] = std::minmax_element(scalars.begin(), scalars.end());
     const double reach = width * (static_cast<double>(*highest) - static_cast<double>(*lowest)) / 2;
     const auto middle = scalars.begin() + static_cast<std::ptrdiff_t>(scalars.size() / 2);
@@ -131,7 +114,7 @@ public:
 
     void run(const std::string& mesh_name, const std::vector<std::string>& functions)
     {
-        const Scene scene(subdivide(mesh_named(mesh_name)).mesh);
+        const Scene scene(volume_named(mesh_name));
         fmt::print("{}: {} cells, along which scalars change by {:.3f} of their range in the median\n",
                    std::filesystem::path(mesh_name).filename().string(), scene.cell_count(), change_along_cells(scene));
         const auto sorter = make_sorter("auto", scene);
@@ -195,7 +178,8 @@ int main(int argc, char** argv)
     std::vector<std::string> functions{"cool-warm", "narrow-peak", "peak:0.2", "peak:0.4"};
     int side = 512;
     CLI::App app("The errors of all integrators against the reference ray caster");
-    app.add_option("mesh", meshes, "Files, or generated scenes NAME:SIZE")->required();
+    app.add_option("mesh", meshes, "Files, of which @ARRAY chooses the scalar, or generated scenes NAME:SIZE")
+        ->required();
     app.add_option("--function", functions, "Named transfer functions, or peak:WIDTH, in the scalar's range");
     app.add_option("--size", side, "Pixels along each side of the image")->check(CLI::Range(1, 4096));
     CLI11_PARSE(app, argc, argv);

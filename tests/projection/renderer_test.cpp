@@ -127,9 +127,9 @@ TEST(Renderer, ExactIntegrationMatchesTheRayCaster)
                     SCOPED_TRACE(reproduce(scene_name, view, options) + ", " + function_name);
                     const Image image = renderer.draw(view.view, order_for(scene, view.view));
                     const RayCast cast = truth(scene, function, view.view);
-                    const ImageErrors errors = image_errors(image, image_of(cast), cast.near_silhouette);
-                    EXPECT_LT(errors.root_mean_square, projector == Projector::thick ? 1e-3 : 2e-4);
-                    EXPECT_LT(errors.largest, projector == Projector::thick ? 3e-2 : 1e-2);
+                    const ImageErrors errors = image_errors(image, image_of(cast));
+                    EXPECT_LT(errors.root_mean_square, 2e-5);
+                    EXPECT_LT(errors.largest, 2e-4);
                 }
             }
 }
