@@ -116,8 +116,7 @@ VisibleCells::Sight VisibleCells::complete(VisibleCell& cell, const std::uint32_
     return judge(cell);
 }
 
-// How wide a face has to be that single precision is enough.
-double VisibleCells::needed_width(const VisibleCell& cell) const
+VisibleCells::Precision VisibleCells::precision_for(const VisibleCell& cell) const
 {
     double longest = 0;
     double nearest = cell.at[0].z;
@@ -130,33 +129,34 @@ double VisibleCells::needed_width(const VisibleCell& cell) const
     const double near_scale = 1 - nearest * inverse_distance_;
     const double far_scale = 1 - farthest * inverse_distance_;
     if (near_scale > most_foreshortened * far_scale)
-        return std::numeric_limits<double>::infinity();
-    return width_scale_ * longest * (farthest - nearest) / (far_scale * far_scale);
+        return {std::numeric_limits<double>::infinity(), 0};
+    return {width_scale_ * longest * (farthest - nearest) / (far_scale * far_scale), 2 * rounding * longest};
 }
 
 VisibleCells::Sight VisibleCells::judge(VisibleCell& cell) const
 {
-    const double needed = needed_width(cell);
-    if (std::isinf(needed))
+    const Precision precision = precision_for(cell);
+    const double wide = precision.wide_enough;
+    if (std::isinf(wide))
         return Sight::apart;
-    cell.least_width = needed;
+    cell.least_width = std::min(precision.beside, wide);
     const std::array<glm::dvec2, 4> p{flat(cell.at[0]), flat(cell.at[1]), flat(cell.at[2]), flat(cell.at[3])};
+    const auto within = [&](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& third, double width) {
+        return centre_near(a, b, third, width + precision.beside);
+    };
     if (cell.kind == SilhouetteClass::triangle) {
-        bool narrow = false;
         for (std::size_t i = 1; i < 4; ++i) {
             const glm::dvec2& a = p[i];
             const glm::dvec2& b = p[i % 3 + 1];
-            if (distance_from_line(a, b, p[0]) >= needed)
+            const double width = distance_from_line(a, b, p[0]);
+            if (width >= wide)
                 continue;
-            narrow = true;
-            if (centre_near(a, b, p[0], needed))
+            // Of a cell that is narrow as a whole, nothing is left but what is close to its longest side.
+            const glm::dvec2& third = p[(i + 1) % 3 + 1];
+            const double whole = distance_from_line(a, b, third);
+            if (within(a, b, third, whole < wide ? whole : width))
                 return Sight::apart;
         }
-        // Nothing of a cell is left that is all narrow.
-        if (narrow)
-            for (std::size_t i = 1; i < 4; ++i)
-                if (distance_from_line(p[i], p[i % 3 + 1], p[(i + 1) % 3 + 1]) < needed)
-                    return Sight::none;
         return Sight::clear;
     }
     for (const std::size_t first : {std::size_t{0}, std::size_t{2}}) {
@@ -168,12 +168,9 @@ VisibleCells::Sight VisibleCells::judge(VisibleCell& cell) const
             std::swap(cell.points[first], cell.points[first + 1]);
             std::swap(cell.at[first], cell.at[first + 1]);
         }
-        if (std::min(one, other) >= needed)
-            continue;
-        if (centre_near(a, b, one < other ? p[first] : p[first + 1], needed))
+        const auto [narrower, wider] = std::minmax(one, other);
+        if (narrower < wide && within(a, b, one < other ? p[first] : p[first + 1], wider < wide ? wider : narrower))
             return Sight::apart;
-        if (std::max(one, other) < needed)
-            return Sight::none;
     }
     return Sight::clear;
 }

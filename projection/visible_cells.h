@@ -22,9 +22,8 @@ struct VisibleCell {
     std::array<PointId, 4> points;
     std::array<glm::dvec3, 4> at; ///< where they are: see ScreenPoints
     bool inner_behind;            ///< of a triangle: whether the inner point is behind the other three
-    /// Pixels. No pixel's centre is closer than this to the line through an edge of the silhouette (of a quad: through
-    /// one of the edges that cross) of which another point is as close, or closer: a face there, seen almost edge-on,
-    /// is as good as one of this width.
+    /// Pixels: a face narrower than this, seen almost edge-on, is as good as one of this width, for no pixel's centre
+    /// is that close to it.
     double least_width;
 };
 
@@ -58,7 +57,11 @@ private:
 
     Sight complete(VisibleCell& cell, const std::uint32_t* v) const;
     Sight judge(VisibleCell& cell) const;
-    double needed_width(const VisibleCell& cell) const;
+    struct Precision {
+        double wide_enough; ///< pixels: a face as wide is seen well; infinite: none is
+        double beside;      ///< pixels: so far beside a narrow face it does not matter
+    };
+    Precision precision_for(const VisibleCell& cell) const;
     bool centre_near(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& third, double distance) const;
     /// Whether a cell's vertices stand, as seen, in the reverse of VTK's order.
     bool turned(CellId cell) const { return (turned_[cell] != 0) != mirrored_; }
