@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <utility>
+#include <optional>
 
 namespace visorder {
 
@@ -40,7 +40,12 @@ glm::ivec2 rounded(const glm::dvec2& place)
 // A corner that is rounded moves by 0.71 steps at most.
 constexpr double margin = 1;
 
-// Every side moves by the margin; corners are where they meet.
+struct MovedCorners {
+    std::array<glm::ivec2, 4> at;
+    std::size_t count;
+};
+
+// Every side moves outwards by the margin; corners are where they meet. None where one would go far.
 std::optional<MovedCorners> moved(const Polygon& polygon)
 {
     constexpr double farthest = 1024; // steps
@@ -135,11 +140,6 @@ Outline rectangle_around(const Polygon& polygon)
 }
 
 } // namespace
-
-std::optional<MovedCorners> moved_corners(const VisibleCell& cell, const RasterLattice& lattice)
-{
-    return moved(polygon_of(cell, lattice));
-}
 
 Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice)
 {

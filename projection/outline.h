@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
-#include <optional>
 #include <span>
 
 namespace visorder {
@@ -23,20 +22,13 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The corners of a cell's silhouette, moved outwards so far that what they enclose holds all of it, wherever rounding
-/// to the lattice takes them: points 1 to 3 of a triangle, and of a quad points 0, 2, 1 and 3, in a round. None where
-/// one would go far.
-struct MovedCorners {
-    std::array<glm::ivec2, 4> at;
-    std::size_t count;
-};
-std::optional<MovedCorners> moved_corners(const VisibleCell& cell, const RasterLattice& lattice);
-
-/// One triangle or two around a cell's silhouette, little larger. Thickness is zero where the cell is not.
+/// One triangle or two around a cell's silhouette, so much larger that they hold all of it, wherever rounding to the
+/// lattice takes their corners.
 Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice);
 
 /// Shirley and Tuchman's triangles: three around the inner point or four around where two edges cross, which is
-/// `thickest`, in pixels; their outer edges moved outwards likewise.
+/// `thickest`, in pixels; their outer edges moved outwards likewise. A cell that is all too
+/// narrow gets what outline_of gives it.
 Outline fan_of(const VisibleCell& cell, const glm::dvec2& thickest, const RasterLattice& lattice);
 
 } // namespace visorder

@@ -42,9 +42,9 @@ struct RenderStatistics {
 /// two images of one renderer is the order alone.
 ///
 /// Rays begin at the eye, or, in a parallel view, infinitely far before the scene; near and far plane are ignored. The
-/// scalar is linear in each cell. Positions are computed once a point and rounded to the rasteriser's lattice at once,
-/// so that cells which share a face cover its pixels together: none is missed and none is hit twice. Memory beyond the
-/// scene is about 30 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
+/// scalar is linear in each cell. Positions are computed once a point, in doubles, and each fragment finds out from
+/// them where its ray enters and leaves its cell: no cell is missed and none is hit twice. Memory beyond the scene is
+/// about 37 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
 ///
 /// Holds references to context and scene, which must outlive it. One `draw` at a time, on the context's thread.
 class ProjectionRenderer {
