@@ -3,19 +3,18 @@
 //
 //     xvfb-run -s "-screen 0 1024x1024x24" visorder_vtk_projected_tetrahedra MESH [TRANSFER [INTEGRATOR [SORTER]]]
 //
-// MESH is a file, or a generated scene's name with a colon. VTK takes what its opacity function holds as extinction per
-// unit distance, so visorder's extinction times that distance is what it is given.
+// MESH is a file, of which @ARRAY chooses the scalar, or a generated scene's name with a colon. VTK takes what its
+// opacity function holds as extinction per unit distance, so visorder's extinction times that distance is what it is
+// given.
 
 #include "bench/frames.h"
-#include "bench/generated_scene.h"
 #include "bench/image_file.h"
+#include "bench/volume.h"
 #include "checking/image_errors.h"
 #include "checking/ray_caster.h"
 #include "graphics/context.h"
 #include "projection/renderer.h"
-#include "scene/subdivision.h"
 #include "sorting/registry.h"
-#include "vtk/read_mesh.h"
 
 #include <algorithm>
 #include <chrono>
@@ -171,8 +170,7 @@ int run(int argc, char** argv)
 {
     const std::string mesh_name = argv[1];
     const std::string transfer = argc > 2 ? argv[2] : "cool-warm";
-    const Scene scene(
-        subdivide(mesh_name.find(':') != std::string::npos ? generate(mesh_name) : read_mesh(mesh_name).mesh).mesh);
+    const Scene scene(volume_named(mesh_name));
     const TransferFunction function = named_transfer_function(transfer, scene, scene.diameter() / 10);
     double most = 0;
     for (const OpticalPoint& point : function.points())

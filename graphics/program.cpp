@@ -106,4 +106,21 @@ void Program::set(const char* uniform, const glm::mat4& value)
     context_->gl().ProgramUniformMatrix4fv(program_.id(), location(uniform), 1, GL_FALSE, &value[0][0]);
 }
 
+void Program::set(const char* uniform, double value)
+{
+    context_->gl().ProgramUniform1d(program_.id(), location(uniform), value);
+}
+
+void Program::set(const char* uniform, std::span<const glm::dvec2> values)
+{
+    context_->gl().ProgramUniform2dv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),
+                                     &values.data()->x);
+}
+
+void Program::set(const char* uniform, std::span<const glm::dvec3> values)
+{
+    context_->gl().ProgramUniform3dv(program_.id(), location(uniform), static_cast<GLsizei>(values.size()),
+                                     &values.data()->x);
+}
+
 } // namespace visorder

@@ -37,6 +37,10 @@ public:
     void set(const char* uniform, glm::vec3 value);
     void set(const char* uniform, glm::vec4 value);
     void set(const char* uniform, const glm::mat4& value);
+    void set(const char* uniform, double value);
+    /// An array, by its name without an index, from its first element on.
+    void set(const char* uniform, std::span<const glm::dvec2> values);
+    void set(const char* uniform, std::span<const glm::dvec3> values);
 
     GLuint id() const { return program_.id(); }
 

@@ -9,8 +9,8 @@
 
 namespace visorder {
 
-/// A cell of which some point is off the rasteriser's lattice, and how many triangles stand before it.
-struct CellOffLattice {
+/// A cell that no triangles stand for (see VisibleCells), and how many triangles stand before it.
+struct CellApart {
     std::uint32_t triangles_before;
     CellId cell;
 };
@@ -24,10 +24,9 @@ public:
     virtual std::size_t triangle_bytes() const = 0;
     virtual std::size_t most_a_cell() const = 0;
 
-    /// Writes the triangles of the cells (inner numbering) in their sequence, and returns how many. Cells off the
-    /// lattice get none, and are listed.
-    virtual std::size_t make(std::span<const CellId> cells, std::byte* into,
-                             std::vector<CellOffLattice>& off_lattice) const = 0;
+    /// Writes the triangles of the cells (inner numbering) in their sequence, and returns how many. Cells set
+    /// apart get none, and are listed.
+    virtual std::size_t make(std::span<const CellId> cells, std::byte* into, std::vector<CellApart>& apart) const = 0;
 };
 
 } // namespace visorder

@@ -3,81 +3,77 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <utility>
 
 namespace visorder {
 
 namespace {
 
-// Pixels that the cell may cover: around its points where all are before the eye, else all of the image.
-void bound(const Screen& screen, const std::array<glm::dvec3, 4>& points, NearCell& cell)
+struct PixelBox {
+    glm::dvec2 low, high;
+};
+
+PixelBox image_of(const Screen& screen)
 {
-    const glm::dvec2 low = -glm::dvec2(screen.centre());
-    const glm::dvec2 high = glm::dvec2(screen.size() - screen.centre());
-    glm::dvec2 first = high;
-    glm::dvec2 last = low;
-    for (const glm::dvec3& point : points) {
-        const ScreenPoint p = screen.seen(point);
-        if (!(p.w > 0) || !std::isfinite(p.x) || !std::isfinite(p.y)) {
-            first = low;
-            last = high;
-            break;
-        }
-        first = glm::min(first, glm::dvec2(p.x, p.y));
-        last = glm::max(last, glm::dvec2(p.x, p.y));
-    }
-    cell.low = glm::ivec2(glm::clamp(glm::floor(first), low, high));
-    cell.high = glm::ivec2(glm::clamp(glm::ceil(last), low, high));
+    return {-glm::dvec2(screen.centre()), glm::dvec2(screen.size() - screen.centre())};
 }
+
+// Around places that are all before the eye, else all of the image.
+PixelBox box_of(const Screen& screen, const std::array<glm::dvec3, 4>& places)
+{
+    const PixelBox image = image_of(screen);
+    PixelBox box{image.high, image.low};
+    for (const glm::dvec3& place : places) {
+        const glm::dvec2 pixel = glm::dvec2(place.x, place.y) / place.z;
+        if (!(place.z > 0) || !std::isfinite(pixel.x) || !std::isfinite(pixel.y))
+            return image;
+        box.low = glm::min(box.low, pixel);
+        box.high = glm::max(box.high, pixel);
+    }
+    return box;
+}
+
+std::optional<NearCell> bounded(NearCell cell, const Screen& screen, const std::array<float, 4>& scalars)
+{
+    cell.scalar_range = {*std::min_element(scalars.begin(), scalars.end()),
+                         *std::max_element(scalars.begin(), scalars.end())};
+    const PixelBox image = image_of(screen);
+    const PixelBox box = box_of(screen, cell.places);
+    cell.low = glm::ivec2(glm::clamp(glm::floor(box.low), image.low, image.high));
+    cell.high = glm::ivec2(glm::clamp(glm::ceil(box.high), image.low, image.high));
+    if (cell.low.x >= cell.high.x || cell.low.y >= cell.high.y)
+        return std::nullopt;
+    return cell;
+}
+
+constexpr double infinitely_far = -1e300;
 
 } // namespace
 
 std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dvec3, 4>& points,
                                   const std::array<float, 4>& scalars)
 {
-    std::array<glm::dvec3, 4> from;
-    for (std::size_t i = 0; i < 4; ++i)
-        from[i] = points[i] - screen.reference();
-    const glm::dmat3& rays = screen.rays();
-    const glm::dmat3& origins = screen.origins();
-    // The linear form (x, y, 1) -> normal . (m (x, y, 1)) for a matrix of columns.
-    const auto form = [](const glm::dvec3& normal, const glm::dmat3& m) { return normal * m; };
-
-    NearCell cell;
-    glm::dvec3 gradient(0);
+    NearCell cell{};
     for (std::size_t i = 0; i < 4; ++i) {
-        // The face's point nearest to the eye, so that a face with a point at the eye passes exactly through it.
-        std::array<std::size_t, 3> face{(i + 1) % 4, (i + 2) % 4, (i + 3) % 4};
-        for (std::size_t k = 1; k < 3; ++k)
-            if (glm::dot(from[face[k]], from[face[k]]) < glm::dot(from[face[0]], from[face[0]]))
-                std::swap(face[0], face[k]);
-        const glm::dvec3& a = from[face[0]];
-        glm::dvec3 normal = glm::cross(from[face[1]] - a, from[face[2]] - a);
-        double height = glm::dot(normal, from[i] - a);
-        if (height == 0 || !std::isfinite(height))
-            return std::nullopt;
-        // Barycentric coordinate i is (normal . (x - a)) / height. As a face, of unit length, it points outwards.
-        gradient += normal / height * static_cast<double>(scalars[i]);
-        const double scale = (height > 0 ? -1 : 1) / glm::length(normal);
-        normal *= scale;
-        glm::dvec3 offset = form(normal, origins);
-        offset.z -= glm::dot(normal, a);
-        cell.offsets[i] = glm::vec3(offset);
-        cell.slopes[i] = glm::vec3(form(normal, rays));
+        const Screen::Anywhere p = screen.anywhere(points[i]);
+        cell.places[i] = p.place;
+        cell.values[i] = {p.depth, scalars[i]};
     }
-    glm::dvec3 scalar_offset = form(gradient, origins);
-    scalar_offset.z += static_cast<double>(scalars[0]) - glm::dot(gradient, from[0]);
-    cell.scalar_offset = glm::vec3(scalar_offset);
-    cell.scalar_slope = glm::vec3(form(gradient, rays));
-    cell.scalar_range = {*std::min_element(scalars.begin(), scalars.end()),
-                         *std::max_element(scalars.begin(), scalars.end())};
-    bound(screen, points, cell);
-    if (cell.low.x >= cell.high.x || cell.low.y >= cell.high.y)
-        return std::nullopt;
-    return cell;
+    cell.inverse_distance = 0;
+    cell.first_depth = screen.perspective() ? 0 : infinitely_far;
+    return bounded(cell, screen, scalars);
+}
+
+std::optional<NearCell> near_cell_on_screen(const Screen& screen, const std::array<glm::dvec3, 4>& at,
+                                            const std::array<float, 4>& scalars)
+{
+    NearCell cell{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        cell.places[i] = {at[i].x, at[i].y, 1};
+        cell.values[i] = {at[i].z, static_cast<double>(scalars[i]) * (1 - at[i].z * screen.inverse_distance())};
+    }
+    cell.inverse_distance = screen.inverse_distance();
+    cell.first_depth = infinitely_far;
+    return bounded(cell, screen, scalars);
 }
 
 } // namespace visorder

@@ -97,6 +97,16 @@ Value value_at(const Knots<Value>& knots, double scalar, Side side)
     return (1 - t) * before.value + t * next->value;
 }
 
+// From 0 to 1 to an interval; an interval of one scalar gets what is at 0.
+template <class Value>
+void spread(Knots<Value>& knots, const ScalarInterval& over)
+{
+    if (over.lowest == over.highest)
+        knots = {{0, value_at(knots, 0, Side::above)}};
+    for (Knot<Value>& knot : knots)
+        knot.scalar = std::lerp(over.lowest, over.highest, knot.scalar);
+}
+
 // All scalars that a point is needed at, ascending, each once.
 std::vector<double> scalars_of(const Knots<glm::dvec3>& colours, const Knots<double>& opacities)
 {
@@ -134,16 +144,20 @@ void check_interpolation(const json& map)
 
 } // namespace
 
-TransferFunction transfer_function_of_paraview(const json& map, double unit_length)
+TransferFunction transfer_function_of_paraview(const json& map, const TransferFunctionFileOptions& options)
 {
     check_interpolation(map);
-    const Knots<glm::dvec3> colours = colours_of(map);
-    const Knots<double> opacities = opacities_of(map, colours);
+    Knots<glm::dvec3> colours = colours_of(map);
+    Knots<double> opacities = opacities_of(map, colours);
+    if (options.spread && colours.front().scalar == 0 && colours.back().scalar == 1) {
+        spread(colours, *options.spread);
+        spread(opacities, *options.spread);
+    }
     std::vector<OpticalPoint> points;
     for (const double scalar : scalars_of(colours, opacities)) {
         const auto point = [&](Side side) {
             const double opacity = std::min(most_opacity, value_at(opacities, scalar, side));
-            return OpticalPoint{scalar, extinction_of(opacity, unit_length),
+            return OpticalPoint{scalar, extinction_of(opacity, options.unit_length),
                                 glm::clamp(value_at(colours, scalar, side), 0.0, 1.0)};
         };
         const OpticalPoint below = point(Side::below), above = point(Side::above);

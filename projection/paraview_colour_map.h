@@ -1,12 +1,13 @@
 #pragma once
 
 #include "projection/transfer_function.h"
+#include "projection/transfer_function_file.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace visorder {
 
 /// One of ParaView's colour maps: see transfer_function_file.h. Throws InputError without the file's name.
-TransferFunction transfer_function_of_paraview(const nlohmann::json& map, double unit_length);
+TransferFunction transfer_function_of_paraview(const nlohmann::json& map, const TransferFunctionFileOptions& options);
 
 } // namespace visorder

@@ -9,7 +9,7 @@ namespace visorder {
 enum class Projector {
     silhouette, ///< its outline, one triangle or two; fragments know the thickness as a function of the pixel
     planes,     ///< the same outline; fragments find entry and exit from the planes of the faces
-    thick       ///< three or four triangles around the thickest point (Shirley and Tuchman 1990)
+    thick       ///< three or four triangles around the thickest point (Shirley and Tuchman 1990), with thickness
 };
 
 /// What the integral of light along a ray through a cell is taken for.

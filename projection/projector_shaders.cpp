@@ -17,37 +17,36 @@ std::string header(Integrator integrator)
 }
 
 constexpr const char* planes_vertex_text = R"(
-layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
-layout(std430, binding = 1) readonly buffer Records { uvec4 records[]; };
-uniform float lattice_steps;
+struct Triangle {
+    vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
+    vec2 corners[4];
+#ifdef OPTICS
+    vec4 optics[4];
+#endif
+};
+layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
 uniform float half_range;
 
-flat out vec4 point0, point1, point2, point3;
-flat out uint kind;
+flat out vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
 #ifdef OPTICS
-flat out vec4 optics0, optics1, optics2, optics3;
+flat out vec4 optics[4];
 #endif
 
 void main()
 {
-    uvec4 record = records[gl_VertexID / 3];
-    int corner = gl_VertexID % 3;
-    kind = record.x >> 30;
-    point0 = points[record.x & 0x3fffffffu];
-    point1 = points[record.y];
-    point2 = points[record.z];
-    point3 = points[record.w];
-    vec2 first = kind < 2u ? point3.xy : point0.xy;
-    vec2 third = kind == 3u ? point3.xy : point2.xy;
-    vec2 place = corner == 0 ? first : corner == 1 ? point1.xy : third;
-    // Dividing by powers of two is exact, and the viewport multiplies again.
-    gl_Position = vec4(roundEven(place * lattice_steps) / (lattice_steps * half_range), 0.0, 1.0);
+    int triangle = gl_VertexID / 3;
+    place = triangles[triangle].place;
+    depth = triangles[triangle].depth;
+    scalar = triangles[triangle].scalar;
+    offsets = triangles[triangle].offsets;
+    slopes_x = triangles[triangle].slopes_x;
+    slopes_y = triangles[triangle].slopes_y;
 #ifdef OPTICS
-    optics0 = optics_at(point0.w);
-    optics1 = optics_at(point1.w);
-    optics2 = optics_at(point2.w);
-    optics3 = optics_at(point3.w);
+    for (int i = 0; i < 4; ++i)
+        optics[i] = triangles[triangle].optics[i];
 #endif
+    // Dividing by a power of two is exact, and the viewport multiplies again.
+    gl_Position = vec4(triangles[triangle].corners[gl_VertexID - 3 * triangle] / half_range, 0.0, 1.0);
 }
 )";
 
@@ -62,102 +61,52 @@ float length_per_depth(vec2 pixel)
 }
 )";
 
-// A face's depth and scalar at a pixel depend on its three points alone, so that the two cells at a face agree about
-// them. Which faces a ray passes through is found out for the points where the rasteriser has them, so that the cells
-// that cover a pixel make a chain from face to face; and then the faces are taken where they are. What rounding to
-// the lattice has moved across a pixel's centre keeps within the face.
+// See PlaneTriangles.
 constexpr const char* planes_text = R"(
-flat in vec4 point0, point1, point2, point3;
-flat in uint kind;
+flat in vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
 #ifdef OPTICS
-flat in vec4 optics0, optics1, optics2, optics3;
+flat in vec4 optics[4];
 #endif
-uniform float lattice_steps;
 uniform float inverse_distance;
-
-float area(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
-
-vec2 snapped(vec4 point) { return roundEven(point.xy * lattice_steps) / lattice_steps; }
-
-vec3 within(vec2 a, vec2 b, vec2 c, vec2 pixel)
-{
-    vec2 ab = b - a, ac = c - a, ap = pixel - a;
-    float whole = area(ab, ac);
-    // Without area on the screen, the nearest edge decides.
-    whole = whole == 0.0 ? 1e-30 : whole;
-    float second = area(ap, ac) / whole;
-    float third = area(ab, ap) / whole;
-    vec3 shares = max(vec3(1.0 - second - third, second, third), 0.0);
-    return shares / (shares.x + shares.y + shares.z);
-}
 
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    bool quad = kind >= 2u;
-    vec2 s0 = snapped(point0), s1 = snapped(point1), s2 = snapped(point2), s3 = snapped(point3);
-
-    // Of a triangle: which of the three faces around the inner point. Never one without area.
-    vec2 from0 = pixel - s0;
-    float turn = sign(area(s2 - s1, s3 - s1));
-    float by1 = turn * area(s1 - s0, from0);
-    float by2 = turn * area(s2 - s0, from0);
-    float by3 = turn * area(s3 - s0, from0);
-    bool in23 = by2 >= 0.0 && by3 <= 0.0 && turn * area(s2 - s0, s3 - s0) > 0.0;
-    bool in31 = !in23 && by3 >= 0.0 && by1 <= 0.0 && turn * area(s3 - s0, s1 - s0) > 0.0;
-    // Of a quad: the face before is that of the nearer edge and the third point drawn, the face behind that of the
-    // farther edge and an end of the nearer.
-    bool third = kind == 2u;
-    bool at0 = area(s3 - s2, pixel - s2) * area(s3 - s2, s0 - s2) >= 0.0;
-
-    vec4 a0 = quad ? point0 : point1;
-    vec4 a1 = quad ? point1 : point2;
-    vec4 a2 = quad && third ? point2 : point3;
-    vec4 b0 = quad ? point2 : point0;
-    vec4 b1 = quad ? point3 : in23 ? point2 : in31 ? point3 : point1;
-    vec4 b2 = quad ? (at0 ? point0 : point1) : in23 ? point3 : in31 ? point1 : point2;
-    vec3 a = within(a0.xy, a1.xy, a2.xy, pixel);
-    vec3 b = within(b0.xy, b1.xy, b2.xy, pixel);
-
+    vec2 r = pixel + 16384.0 - abs(place.xy) - place.zw;
+    bool quad = place.x < 0.0;
+    vec4 planes = offsets + slopes_x * r.x + slopes_y * r.y;
+    float first = quad ? max(planes.x, planes.y) : planes.x;
+    float last = min(min(planes.z, planes.w), quad ? planes.z : planes.y);
+    if (last <= first)
+        discard;
+    vec2 base = vec2(dot(depth.yz, r) + depth.x, dot(scalar.yz, r) + scalar.x);
+    vec2 rise = vec2(depth.w, scalar.w);
+    vec2 one = base + rise * first;
+    vec2 other = base + rise * last;
     // Scalars are linear in space: on the screen, they are when multiplied by 1 - depth * inverse_distance.
-    vec3 a_depths = vec3(a0.z, a1.z, a2.z);
-    vec3 b_depths = vec3(b0.z, b1.z, b2.z);
-    float a_depth = dot(a, a_depths);
-    float b_depth = dot(b, b_depths);
-    float a_scale = 1.0 / (1.0 - a_depth * inverse_distance);
-    float b_scale = 1.0 / (1.0 - b_depth * inverse_distance);
-    a *= (1.0 - a_depths * inverse_distance) * a_scale;
-    b *= (1.0 - b_depths * inverse_distance) * b_scale;
-    float a_scalar = dot(a, vec3(a0.w, a1.w, a2.w));
-    float b_scalar = dot(b, vec3(b0.w, b1.w, b2.w));
-    float len = (b_depth - a_depth) * a_scale * b_scale * length_per_depth(pixel);
-
-    bool swapped = kind == 1u;
-    len = swapped ? -len : len;
-    float front = swapped ? b_scalar : a_scalar;
-    float back = swapped ? a_scalar : b_scalar;
+    float one_scale = 1.0 / (1.0 - one.x * inverse_distance);
+    float other_scale = 1.0 / (1.0 - other.x * inverse_distance);
+    float len = abs(depth.w) * (last - first) * one_scale * other_scale * length_per_depth(pixel);
+    float one_scalar = one.y * one_scale;
+    float other_scalar = other.y * other_scale;
+    bool swapped = place.y < 0.0;
 #ifdef OPTICS
-    vec4 ao0 = quad ? optics0 : optics1;
-    vec4 ao1 = quad ? optics1 : optics2;
-    vec4 ao2 = quad && third ? optics2 : optics3;
-    vec4 bo0 = quad ? optics2 : optics0;
-    vec4 bo1 = quad ? optics3 : in23 ? optics2 : in31 ? optics3 : optics1;
-    vec4 bo2 = quad ? (at0 ? optics0 : optics1) : in23 ? optics3 : in31 ? optics1 : optics2;
-#endif
-#ifdef OPTICS
-    vec4 a_optics = a.x * ao0 + a.y * ao1 + a.z * ao2;
-    vec4 b_optics = b.x * bo0 + b.y * bo1 + b.z * bo2;
-    result = light_of(front, back, len, swapped ? b_optics : a_optics, swapped ? a_optics : b_optics);
+    vec4 base_optics = optics[0] + optics[1] * r.x + optics[2] * r.y;
+    vec4 one_optics = (base_optics + optics[3] * first) * one_scale;
+    vec4 other_optics = (base_optics + optics[3] * last) * other_scale;
 #else
-    result = light_of(front, back, len, vec4(0.0), vec4(0.0));
+    vec4 one_optics = vec4(0.0), other_optics = vec4(0.0);
 #endif
+    result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, len,
+                      swapped ? other_optics : one_optics, swapped ? one_optics : other_optics);
 }
 )";
 
 constexpr const char* silhouette_vertex_text = R"(
 struct Triangle {
     vec4 place, k12, k3_bases, slopes;
-    vec2 corners[4];
+    vec2 corners[3];
+    vec2 beside;
 #ifdef OPTICS
     vec4 colours[5];
 #endif
@@ -166,6 +115,7 @@ layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
 uniform float half_range;
 
 flat out vec4 place, k12, k3_bases, slopes;
+flat out vec2 beside;
 #ifdef OPTICS
 flat out vec4 colours[5];
 #endif
@@ -177,6 +127,7 @@ void main()
     k12 = triangles[triangle].k12;
     k3_bases = triangles[triangle].k3_bases;
     slopes = triangles[triangle].slopes;
+    beside = triangles[triangle].beside;
 #ifdef OPTICS
     for (int i = 0; i < 5; ++i)
         colours[i] = triangles[triangle].colours[i];
@@ -189,6 +140,7 @@ void main()
 // See Thickness.
 constexpr const char* silhouette_text = R"(
 flat in vec4 place, k12, k3_bases, slopes;
+flat in vec2 beside; // the rest of the place, less than a lattice step
 #ifdef OPTICS
 flat in vec4 colours[5];
 #endif
@@ -197,7 +149,7 @@ uniform float inverse_distance;
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    vec2 r = pixel + 16384.0 - abs(place.xy);
+    vec2 r = pixel + 16384.0 - abs(place.xy) - beside;
     bool quad = place.x < 0.0;
     float t1 = dot(k12.xy, r) + (quad ? 1.0 : 0.0);
     float t2 = dot(k12.zw, r);
@@ -205,8 +157,9 @@ void main()
     float g = quad ? max(t2, t2 * k3_bases.y) : 0.0;
     float m = quad ? max(t1, t3) : max(max(t1, t2), t3);
     float thickness = 1.0 - g - m;
-    // The triangle drawn may reach beyond a quad.
-    thickness = quad ? max(thickness, 0.0) : thickness;
+    // The triangle drawn reaches beyond the cell.
+    if (thickness <= 0.0)
+        discard;
     vec2 one = k3_bases.zw + slopes.xz * r.x + slopes.yw * r.y + place.zw * g;
     vec2 other = one + place.zw * thickness;
     // Back from what is linear on the screen.
@@ -221,8 +174,6 @@ void main()
     vec4 optics = colours[0] + colours[1] * r.x + colours[2] * r.y + colours[3] * g + colours[4] * m;
 #endif
 #ifdef LINEAR
-    // Below zero beyond a quad.
-    optics.w = max(optics.w, 0.0);
     result = vec4(optics.rgb * optics.w, optics.w);
 #else
 #ifndef OPTICS
@@ -230,54 +181,6 @@ void main()
 #endif
     result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, swapped ? -len : len,
                       optics, optics);
-#endif
-}
-)";
-
-constexpr const char* thick_vertex_text = R"(
-struct Corner {
-    vec4 place_and_front, back;
-#ifdef OPTICS
-    vec4 optics;
-#endif
-};
-layout(std430, binding = 1) readonly buffer Corners { Corner corners[]; };
-uniform float half_range;
-
-noperspective out vec2 front, back; // depth, and scalar times 1 - depth / D
-#ifdef OPTICS
-noperspective out vec4 optics;
-#endif
-
-void main()
-{
-    front = corners[gl_VertexID].place_and_front.zw;
-    back = corners[gl_VertexID].back.xy;
-#ifdef OPTICS
-    optics = corners[gl_VertexID].optics;
-#endif
-    gl_Position = vec4(corners[gl_VertexID].place_and_front.xy / half_range, 0.0, 1.0);
-}
-)";
-
-constexpr const char* thick_text = R"(
-noperspective in vec2 front, back;
-#ifdef OPTICS
-noperspective in vec4 optics;
-#else
-const vec4 optics = vec4(0.0);
-#endif
-uniform float inverse_distance;
-
-void main()
-{
-#ifdef LINEAR
-    result = vec4(optics.rgb * optics.w, optics.w);
-#else
-    float front_scale = 1.0 - front.x * inverse_distance;
-    float back_scale = 1.0 - back.x * inverse_distance;
-    float len = (back.x - front.x) / (front_scale * back_scale) * length_per_depth(gl_FragCoord.xy - centre);
-    result = light_of(front.y / front_scale, back.y / back_scale, len, optics, optics);
 #endif
 }
 )";
@@ -293,36 +196,97 @@ void main()
 }
 )";
 
+// See NearCell.
 constexpr const char* near_cell_text = R"(
-uniform vec3 offsets[4], slopes[4];
-uniform vec3 scalar_offset, scalar_slope;
+uniform dvec3 places[4];
+uniform dvec2 values[4];
 uniform vec2 scalar_range;
-uniform float first_depth; // where rays begin
+uniform double first_depth, inverse_depth;
+
+dvec3 from_ray[4];
+
+double area(int i, int k)
+{
+    return from_ray[i].x * from_ray[k].y - from_ray[k].x * from_ray[i].y;
+}
+
+// On which side of the edge the ray passes. One that meets it is moved aside by (e, e^2), with e little.
+bool is_left(int i, int k)
+{
+    dvec3 a = from_ray[i], b = from_ray[k];
+    double forth = a.x * b.y, back = b.x * a.y;
+    if (forth != back)
+        return forth > back;
+    forth = b.z * a.y;
+    back = a.z * b.y;
+    if (forth != back)
+        return forth > back;
+    return a.z * b.x >= b.z * a.x;
+}
+
+// Depth and scalar where the ray meets a face.
+dvec2 met(int i, int j, int k)
+{
+    dvec3 weights = abs(dvec3(area(j, k), area(k, i), area(i, j)));
+    double sum = weights.x + weights.y + weights.z;
+    if (sum == 0.0) {
+        weights = dvec3(1.0);
+        sum = 3.0;
+    }
+    return (weights.x * values[i] + weights.y * values[j] + weights.z * values[k]) / sum;
+}
 
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    vec3 place = vec3(pixel, 1.0);
-    float first = first_depth;
-    float last = 1e30;
-    for (int i = 0; i < 4; ++i) {
-        float offset = dot(offsets[i], place);
-        float slope = dot(slopes[i], place);
-        float depth = -offset / slope;
-        if (slope < 0.0)
-            first = max(first, depth);
-        else if (slope > 0.0)
-            last = min(last, depth);
-        else if (offset > 0.0)
-            last = first;
+    for (int i = 0; i < 4; ++i)
+        from_ray[i] = dvec3(places[i].x - pixel.x * places[i].z, places[i].y - pixel.y * places[i].z, places[i].z);
+    bool left01 = is_left(0, 1), left02 = is_left(0, 2), left03 = is_left(0, 3);
+    bool left12 = is_left(1, 2), left13 = is_left(1, 3), left23 = is_left(2, 3);
+    dvec2 one = dvec2(0.0), other = dvec2(0.0);
+    int count = 0, opposite = 0;
+    if (left12 == left23 && left12 != left13) {
+        one = met(1, 2, 3);
+        opposite = 0;
+        ++count;
     }
-    if (!(last > first))
+    if (left02 == left23 && left02 != left03) {
+        other = one;
+        one = met(0, 2, 3);
+        opposite = 1;
+        ++count;
+    }
+    if (left01 == left13 && left01 != left03) {
+        other = one;
+        one = met(0, 1, 3);
+        opposite = 2;
+        ++count;
+    }
+    if (left01 == left12 && left01 != left02) {
+        other = one;
+        one = met(0, 1, 2);
+        opposite = 3;
+        ++count;
+    }
+    if (count == 0)
         discard;
-    float offset = dot(scalar_offset, place);
-    float slope = dot(scalar_slope, place);
-    float front = clamp(offset + slope * first, scalar_range.x, scalar_range.y);
-    float back = clamp(offset + slope * last, scalar_range.x, scalar_range.y);
-    float len = (last - first) * length_per_depth(pixel);
+    // A ray from one of the cell's points passes the face opposite alone: there the cell begins.
+    if (count == 1) {
+        if (from_ray[opposite] != dvec3(0.0))
+            discard;
+        other = values[opposite];
+    }
+    dvec2 enter = one.x < other.x ? one : other;
+    dvec2 leave = one.x < other.x ? other : one;
+    double first = max(enter.x, first_depth);
+    if (!(leave.x > first))
+        discard;
+    double way = (first - enter.x) / (leave.x - enter.x);
+    double first_scale = 1.0 / (1.0 - first * inverse_depth);
+    double last_scale = 1.0 / (1.0 - leave.x * inverse_depth);
+    float front = clamp(float((enter.y + way * (leave.y - enter.y)) * first_scale), scalar_range.x, scalar_range.y);
+    float back = clamp(float(leave.y * last_scale), scalar_range.x, scalar_range.y);
+    float len = float((leave.x - first) * first_scale * last_scale) * length_per_depth(pixel);
 #ifdef OPTICS
     // Where a ray begins inside the cell there is no vertex whose colour could be taken.
     result = light_of(front, back, len, optics_at(front), optics_at(back));
@@ -338,15 +302,9 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator)
 {
     const std::string start = header(integrator);
     const std::string fragment = start + ray_text + integrator_shader(integrator);
-    switch (projector) {
-    case Projector::silhouette:
-        return {start + silhouette_vertex_text, fragment + silhouette_text};
-    case Projector::thick:
-        return {start + thick_vertex_text, fragment + thick_text};
-    case Projector::planes:
-        return {start + (needs_optics(integrator) ? optics_shader() : "") + planes_vertex_text, fragment + planes_text};
-    }
-    return {};
+    if (projector == Projector::planes)
+        return {start + planes_vertex_text, fragment + planes_text};
+    return {start + silhouette_vertex_text, fragment + silhouette_text};
 }
 
 ShaderPair near_cell_shaders(Integrator integrator)

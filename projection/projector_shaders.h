@@ -12,7 +12,7 @@ struct ShaderPair {
     std::string fragment;
 };
 
-/// What PlaneTriangles, SilhouetteTriangles and ThickTriangles make.
+/// What PlaneTriangles and SilhouetteTriangles make.
 ShaderPair triangle_shaders(Projector projector, Integrator integrator);
 
 /// A rectangle around one NearCell.

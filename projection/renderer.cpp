@@ -5,7 +5,6 @@
 #include "projection/plane_triangles.h"
 #include "projection/projector_shaders.h"
 #include "projection/silhouette_triangles.h"
-#include "projection/thick_triangles.h"
 #include "scene/error.h"
 #include "scene/stopwatch.h"
 
@@ -29,7 +28,7 @@ constexpr std::size_t block_cells = 1024;
 constexpr std::size_t ring_segments = 3;
 constexpr std::size_t ring_segment_bytes = std::size_t{4} << 20;
 
-constexpr GLuint points_binding = 0;
+constexpr std::size_t most_points = std::size_t{1} << 30;
 constexpr GLuint triangles_binding = 1;
 
 const Scene& checked(const Scene& scene)
@@ -43,7 +42,7 @@ const Scene& checked(const Scene& scene)
         if (!std::isfinite(mesh.scalars[i]))
             throw InputError(fmt::format("point {}: scalar {} is not finite", scene.caller_points()[i],
                                          static_cast<double>(mesh.scalars[i])));
-    if (mesh.points.size() > std::size_t{1} << record_kinds::shift)
+    if (mesh.points.size() > most_points)
         throw InputError(fmt::format("{} points; the renderer takes 2^30", mesh.points.size()));
     return scene;
 }
@@ -138,11 +137,9 @@ FunctionTextures make_textures(const Context& context, const Scene& scene, const
 
 std::unique_ptr<const CellTriangles> make_triangles(Projector projector, const TriangleSources& sources)
 {
-    if (projector == Projector::silhouette)
-        return std::make_unique<SilhouetteTriangles>(sources);
-    if (projector == Projector::thick)
-        return std::make_unique<ThickTriangles>(sources);
-    return std::make_unique<PlaneTriangles>(*sources.cells);
+    if (projector == Projector::planes)
+        return std::make_unique<PlaneTriangles>(sources);
+    return std::make_unique<SilhouetteTriangles>(sources, projector == Projector::thick);
 }
 
 UploadRing make_ring(const Context& context)
@@ -157,7 +154,7 @@ UploadRing make_ring(const Context& context)
 struct ProjectionRenderer::Stretch {
     struct Block {
         std::size_t triangles = 0;
-        std::vector<CellOffLattice> off_lattice;
+        std::vector<CellApart> apart;
     };
     LargeArray<std::byte> triangles; // block by block, each with room for all it can have
     std::vector<Block> blocks;
@@ -208,7 +205,7 @@ void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
     const Context::Current current(*context_);
     const ScalarRange range = scalar_range(scene_->mesh());
     function_.set(optical_pieces(function, range.lowest, range.range));
-    if (!needs_optics(options_.integrator) || options_.projector == Projector::planes)
+    if (!needs_optics(options_.integrator))
         return;
     const auto& scalars = scene_->mesh().scalars;
     optics_.resize(scalars.size());
@@ -238,9 +235,9 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
                 throw InputError(fmt::format("the order lists cell {}, of {}", cell, inner_cells_.size()));
             stretch.cells[i] = inner_cells_[cell];
         }
-        block.off_lattice.clear();
+        block.apart.clear();
         block.triangles = triangles.make(std::span(stretch.cells).subspan(begin, count),
-                                         stretch.triangles.data() + b * block_bytes, block.off_lattice);
+                                         stretch.triangles.data() + b * block_bytes, block.apart);
     });
     stretch.seconds = watch.lap();
 }
@@ -255,13 +252,13 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
         // As many blocks as a segment holds; it holds one at least.
         std::byte* into = ring_.next();
         std::size_t written = 0;
-        std::vector<CellOffLattice> off_lattice;
+        std::vector<CellApart> apart;
         for (; b < stretch.blocks.size(); ++b) {
             const Stretch::Block& block = stretch.blocks[b];
             if ((written + block.triangles) * triangle_bytes > ring_.segment_bytes())
                 break;
-            for (const CellOffLattice& cell : block.off_lattice)
-                off_lattice.push_back({cell.triangles_before + static_cast<std::uint32_t>(written), cell.cell});
+            for (const CellApart& cell : block.apart)
+                apart.push_back({cell.triangles_before + static_cast<std::uint32_t>(written), cell.cell});
             std::copy_n(stretch.triangles.data() + b * block_bytes, block.triangles * triangle_bytes,
                         into + written * triangle_bytes);
             written += block.triangles;
@@ -275,7 +272,7 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
             gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
             drawn = end;
         };
-        for (const CellOffLattice& cell : off_lattice) {
+        for (const CellApart& cell : apart) {
             draw_up_to(cell.triangles_before);
             draw_near_cell(screen, cell.cell);
         }
@@ -290,18 +287,27 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
 {
     const auto v = scene_->mesh().cell(cell);
     const auto& points = scene_->mesh().points;
-    const std::optional<NearCell> near = near_cell(screen, {points[v[0]], points[v[1]], points[v[2]], points[v[3]]},
-                                                   {scalars_[v[0]], scalars_[v[1]], scalars_[v[2]], scalars_[v[3]]});
+    // In the order of their numbers, so that two cells agree about the face between them.
+    std::array<PointId, 4> order{v[0], v[1], v[2], v[3]};
+    std::sort(order.begin(), order.end());
+    std::array<glm::dvec3, 4> in_space{};
+    std::array<glm::dvec3, 4> on_screen{};
+    std::array<float, 4> scalars{};
+    bool placed = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+        in_space[i] = points[order[i]];
+        on_screen[i] = points_.at[order[i]];
+        scalars[i] = scalars_[order[i]];
+        placed = placed && (points_.sides[order[i]] & sides::off_lattice) == 0;
+    }
+    const std::optional<NearCell> near =
+        placed ? near_cell_on_screen(screen, on_screen, scalars) : near_cell(screen, in_space, scalars);
     if (!near)
         return;
-    constexpr std::array<const char*, 4> offsets{"offsets[0]", "offsets[1]", "offsets[2]", "offsets[3]"};
-    constexpr std::array<const char*, 4> slopes{"slopes[0]", "slopes[1]", "slopes[2]", "slopes[3]"};
-    for (std::size_t i = 0; i < 4; ++i) {
-        near_cell_program_.set(offsets[i], near->offsets[i]);
-        near_cell_program_.set(slopes[i], near->slopes[i]);
-    }
-    near_cell_program_.set("scalar_offset", near->scalar_offset);
-    near_cell_program_.set("scalar_slope", near->scalar_slope);
+    near_cell_program_.set("places", near->places);
+    near_cell_program_.set("values", near->values);
+    near_cell_program_.set("first_depth", near->first_depth);
+    near_cell_program_.set("inverse_depth", near->inverse_distance);
     near_cell_program_.set("scalar_range", near->scalar_range);
     near_cell_program_.set("low", glm::vec2(near->low));
     near_cell_program_.set("high", glm::vec2(near->high));
@@ -344,14 +350,11 @@ void ProjectionRenderer::set_up(const Screen& screen)
     }
     if (options_.integrator != Integrator::linear)
         triangle_program_.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
-    else if (options_.projector == Projector::silhouette)
+    else
         triangle_program_.set("centre", glm::vec2(screen.centre()));
-    if (options_.projector == Projector::planes)
-        triangle_program_.set("lattice_steps", static_cast<float>(lattice_.steps));
-    near_cell_program_.set("first_depth", screen.perspective() ? 0.0F : -1e30F);
     const bool exact = options_.integrator == Integrator::exact;
     const bool optics = needs_optics(options_.integrator);
-    function_.introduce(triangle_program_, exact || (optics && options_.projector == Projector::planes));
+    function_.introduce(triangle_program_, exact);
     function_.introduce(near_cell_program_, exact || optics);
     function_.bind();
 }
@@ -366,18 +369,11 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     Stopwatch watch;
     const Screen screen(view, scene_->bounds());
     set_up(screen);
-    points_.place(screen, lattice_, scene_->mesh().points, scalars_);
-    const GlFunctions& gl = context_->gl();
-    if (!points_buffer_)
-        points_buffer_ = GlObject(*context_, GlKind::buffer);
-    gl.NamedBufferData(points_buffer_.id(), static_cast<GLsizeiptr>(points_.exact.size() * sizeof(glm::vec4)),
-                       points_.exact.data(), GL_STREAM_DRAW);
-    gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, points_binding, points_buffer_.id());
+    points_.place(screen, lattice_, scene_->mesh().points);
     statistics_.place_s = watch.lap();
 
     const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
-    const TriangleSources sources{scene_,   &screen, &visible,
-                                  lattice_, optics_, options_.integrator == Integrator::linear};
+    const TriangleSources sources{&screen, &visible, scalars_, optics_, options_.integrator == Integrator::linear};
     const std::unique_ptr<const CellTriangles> made = make_triangles(options_.projector, sources);
     const CellTriangles& triangles = *made;
     const std::size_t cells = order.back_to_front.size();
@@ -395,7 +391,7 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
         }
         group.wait();
     }
-    gl.Finish();
+    context_->gl().Finish();
     statistics_.draw_s = watch.lap();
 
     Image image{screen.size(), {}};

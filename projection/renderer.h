@@ -35,16 +35,16 @@ struct RenderStatistics {
     double draw_s = 0;          ///< from the first command to the last pixel, what is prepared meanwhile included
     double read_s = 0;          ///< the image back
     std::size_t triangles = 0;  ///< drawn
-    std::size_t near_cells = 0; ///< that no triangles stand for, because they reach up to the eye or far off the image
+    std::size_t near_cells = 0; ///< that no triangles stand for: see NearCell
 };
 
 /// Draws a scene of tetrahedra by projecting one cell after another, in the sequence of an Order: what differs between
 /// two images of one renderer is the order alone.
 ///
 /// Rays begin at the eye, or, in a parallel view, infinitely far before the scene; near and far plane are ignored. The
-/// scalar is linear in each cell. Positions are computed once a point and rounded to the rasteriser's lattice at once,
-/// so that cells which share a face cover its pixels together: none is missed and none is hit twice. Memory beyond the
-/// scene is about 30 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
+/// scalar is linear in each cell. Positions are computed once a point, in doubles, and each fragment finds out from
+/// them where its ray enters and leaves its cell: no cell is missed and none is hit twice. Memory beyond the scene is
+/// about 37 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
 ///
 /// Holds references to context and scene, which must outlive it. One `draw` at a time, on the context's thread.
 class ProjectionRenderer {
@@ -87,7 +87,6 @@ private:
     Program near_cell_program_;
     FunctionTextures function_;
     GlObject no_attributes_;
-    GlObject points_buffer_;
     UploadRing ring_;
     std::optional<Framebuffer> framebuffer_;
     ScreenPoints points_;

@@ -69,7 +69,6 @@ Screen::Screen(const View& view, const Box& bounds) : perspective_(view.eye.w !=
             distance_ = 1;
         inverse_distance_ = 1 / distance_;
         rays_ = inverse_of_rows(x_, y_, depth_);
-        origins_ = glm::dmat3(0);
     } else {
         reference_ = bounds.middle();
         const glm::dvec4 middle = m * glm::dvec4(reference_, 1);
@@ -85,7 +84,6 @@ Screen::Screen(const View& view, const Box& bounds) : perspective_(view.eye.w !=
         depth_reference_ = reference_;
         const glm::dmat3 inverse = inverse_of_rows(x_, y_, depth_);
         rays_ = glm::dmat3(glm::dvec3(0), glm::dvec3(0), inverse[2]);
-        origins_ = glm::dmat3(inverse[0], inverse[1], -constant_.x * inverse[0] - constant_.y * inverse[1]);
     }
     // A view that is no mirror has x to the right, y up and z towards the viewer.
     mirrors_ = glm::dot(glm::cross(x_, y_), depth_) > 0;
@@ -99,6 +97,13 @@ ScreenPoint Screen::seen(const glm::dvec3& point) const
         return {glm::dot(x_, from) + constant_.x, glm::dot(y_, from) + constant_.y, z, 1};
     const double d = glm::dot(depth_, from);
     return {glm::dot(x_, from) / d, glm::dot(y_, from) / d, distance_ * z / d, d * inverse_distance_};
+}
+
+Screen::Anywhere Screen::anywhere(const glm::dvec3& point) const
+{
+    const glm::dvec3 from = point - reference_;
+    const double depth = glm::dot(depth_, from);
+    return {{glm::dot(x_, from) + constant_.x, glm::dot(y_, from) + constant_.y, perspective_ ? depth : 1}, depth};
 }
 
 } // namespace visorder

@@ -35,6 +35,14 @@ public:
 
     ScreenPoint seen(const glm::dvec3& point) const;
 
+    /// A point that may be beside or behind the eye. It is on the ray through pixel (px, py), or, behind the eye, on
+    /// its prolongation, if place.x = px place.z and place.y = py place.z.
+    struct Anywhere {
+        glm::dvec3 place;
+        double depth; ///< z, not projective; from the plane through a perspective eye
+    };
+    Anywhere anywhere(const glm::dvec3& point) const;
+
     bool perspective() const { return perspective_; }
     glm::ivec2 size() const { return size_; }
 
@@ -47,11 +55,6 @@ public:
     /// Distance in the world along the ray through pixel (x, y), per unit of z, is the length of
     /// ray[0] x + ray[1] y + ray[2]. In world coordinates, the columns for x, y and 1.
     const glm::dmat3& rays() const { return rays_; }
-
-    /// A point on the ray through (x, y) is origin[0] x + origin[1] y + origin[2]; constant in a perspective view (the
-    /// eye). Relative to `reference`.
-    const glm::dmat3& origins() const { return origins_; }
-    const glm::dvec3& reference() const { return reference_; }
 
     /// Whether the view shows the world as a mirror does.
     bool mirrors() const { return mirrors_; }
@@ -68,7 +71,6 @@ private:
     double distance_ = 0;        // D
     double inverse_distance_ = 0;
     glm::dmat3 rays_;
-    glm::dmat3 origins_;
     bool mirrors_;
 };
 

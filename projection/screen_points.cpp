@@ -28,17 +28,18 @@ std::uint8_t sides_of(const ScreenPoint& p, const glm::dvec2& low, const glm::dv
 
 } // namespace
 
-void ScreenPoints::place(const Screen& screen, const RasterLattice& lattice, std::span<const glm::dvec3> points,
-                         std::span<const float> scalars)
+void ScreenPoints::place(const Screen& screen, const RasterLattice& lattice, std::span<const glm::dvec3> points)
 {
-    exact.resize(points.size());
+    at.resize(points.size());
     snapped.resize(points.size());
     sides.resize(points.size());
-    // A pixel more than the image: positions are rounded after this test.
+    // A pixel more than the image: what is drawn is a little larger.
     const glm::dvec2 low = -glm::dvec2(screen.centre()) - 1.0;
     const glm::dvec2 high = glm::dvec2(screen.size() - screen.centre()) + 1.0;
-    const auto half_range = static_cast<double>(lattice.half_range);
-    const auto steps = static_cast<float>(lattice.steps);
+    // Room for the corners of what is drawn, which lie outside the cell.
+    constexpr double margin = 64;
+    const double half_range = lattice.half_range - margin;
+    const double steps = lattice.steps;
     using Range = oneapi::tbb::blocked_range<std::size_t>;
     oneapi::tbb::parallel_for(Range(0, points.size(), 4096), [&](const Range& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
@@ -47,12 +48,11 @@ void ScreenPoints::place(const Screen& screen, const RasterLattice& lattice, std
             // Written so that what is not a number is off the lattice.
             if (!(p.w > least_w && std::abs(p.x) < half_range && std::abs(p.y) < half_range)) {
                 bits |= sides::off_lattice;
-                exact[i] = glm::vec4(0, 0, 0, scalars[i]);
+                at[i] = glm::dvec3(0);
                 snapped[i] = glm::ivec2(0);
             } else {
-                exact[i] = glm::vec4(p.x, p.y, p.depth, scalars[i]);
-                // Of the single precision coordinates, as the shader rounds them too.
-                snapped[i] = {std::lrintf(exact[i].x * steps), std::lrintf(exact[i].y * steps)};
+                at[i] = glm::dvec3(p.x, p.y, p.depth);
+                snapped[i] = {std::lrint(p.x * steps), std::lrint(p.y * steps)};
             }
             sides[i] = bits;
         }

@@ -2,11 +2,10 @@
 
 #include "projection/screen.h"
 #include "scene/large_array.h"
-#include "scene/mesh.h"
 
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
+#include <glm/vec3.hpp>
 #include <span>
 
 namespace visorder {
@@ -28,13 +27,12 @@ inline constexpr std::uint8_t off_lattice = 32;
 
 /// The points of a mesh on the screen, computed once a frame, so that all cells around a point agree on where it is.
 struct ScreenPoints {
-    LargeArray<glm::vec4> exact;    ///< x, y and depth (see ScreenPoint), and the scalar
-    LargeArray<glm::ivec2> snapped; ///< x and y in lattice steps, where the rasteriser has them
+    LargeArray<glm::dvec3> at;      ///< x, y and depth: see ScreenPoint
+    LargeArray<glm::ivec2> snapped; ///< x and y in lattice steps, rounded: to tell at once what covers no pixel
     LargeArray<std::uint8_t> sides;
 
-    /// Reuses memory. `scalars` is one a point. All threads; the same result for any number of them.
-    void place(const Screen& screen, const RasterLattice& lattice, std::span<const glm::dvec3> points,
-               std::span<const float> scalars);
+    /// Reuses memory. All threads; the same result for any number of them.
+    void place(const Screen& screen, const RasterLattice& lattice, std::span<const glm::dvec3> points);
 };
 
 } // namespace visorder

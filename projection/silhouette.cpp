@@ -4,9 +4,9 @@ namespace visorder {
 
 namespace {
 
-std::int64_t doubled_area(const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c)
+double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
 {
-    return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 // By which points have a positive and which a negative share in the affine dependency (bit i: point i).
@@ -50,10 +50,10 @@ std::array<Silhouette, sign_patterns> all_patterns()
 
 } // namespace
 
-Silhouette silhouette_of(const std::array<glm::ivec2, 4>& points)
+Silhouette silhouette_of(const std::array<glm::dvec2, 4>& points)
 {
     static const std::array<Silhouette, sign_patterns> table = all_patterns();
-    const std::array<std::int64_t, 4> share{
+    const std::array<double, 4> share{
         doubled_area(points[1], points[2], points[3]), -doubled_area(points[0], points[2], points[3]),
         doubled_area(points[0], points[1], points[3]), -doubled_area(points[0], points[1], points[2])};
     unsigned positive = 0;

@@ -14,7 +14,7 @@ enum class SilhouetteClass : std::uint8_t {
     quad      ///< class 2: two edges that cross
 };
 
-/// How four points in the plane lie, decided exactly.
+/// How four points in the plane lie.
 struct Silhouette {
     SilhouetteClass kind = SilhouetteClass::empty;
 
@@ -27,8 +27,9 @@ struct Silhouette {
     bool first_behind = false;
 };
 
-/// Coordinates below 2^29 in size. What is degenerate needs no rule of its own: the signs of the four points' affine
-/// dependency sum_i s_i p_i = 0, sum_i s_i = 0 tell which of them are inside the hull of which others (Radon 1921).
-Silhouette silhouette_of(const std::array<glm::ivec2, 4>& points);
+/// What is degenerate needs no rule of its own: the signs of the four points' affine dependency sum_i s_i p_i = 0,
+/// sum_i s_i = 0 tell which of them are inside the hull of which others (Radon 1921). Right for points that are where
+/// the given ones are but for rounding.
+Silhouette silhouette_of(const std::array<glm::dvec2, 4>& points);
 
 } // namespace visorder

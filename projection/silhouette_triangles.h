@@ -1,30 +1,28 @@
 #pragma once
 
-#include "projection/boundary_slab.h"
+#include "projection/triangle_sources.h"
 
 namespace visorder {
 
-/// The triangles of Projector::silhouette: of each half of a cell's silhouette the cell's Thickness, as the shader
-/// reads it.
+/// The triangles of Projector::silhouette and Projector::thick: of each triangle of a cell's outline, or of Shirley and
+/// Tuchman's fan around its thickest point, the cell's Thickness, as the shader reads it.
 ///
-/// All is linear on triangles whose corners are on the lattice, where neighbours agree on it. What that displaces the
-/// mesh's boundary by is made good by thin slabs: beside a cell with a boundary face stands a triangle for the way
-/// between that face on the lattice and where it is.
+/// All of it is linear on Shirley and Tuchman's triangles, and so a fragment knows it wherever the rasteriser has the
+/// triangles' corners.
 class SilhouetteTriangles final : public CellTriangles {
 public:
-    explicit SilhouetteTriangles(const TriangleSources& sources);
+    /// `fans`: whether to draw fans rather than outlines.
+    SilhouetteTriangles(const TriangleSources& sources, bool fans);
 
     std::size_t triangle_bytes() const override;
-    std::size_t most_a_cell() const override { return 6; }
-    std::size_t make(std::span<const CellId> cells, std::byte* into,
-                     std::vector<CellOffLattice>& off_lattice) const override;
+    std::size_t most_a_cell() const override { return fans_ ? 4 : 2; }
+    std::size_t make(std::span<const CellId> cells, std::byte* into, std::vector<CellApart>& apart) const override;
 
 private:
     struct Writer;
 
     TriangleSources from_;
-    double pixels_a_step_;
-    double inverse_distance_;
+    bool fans_;
 };
 
 } // namespace visorder

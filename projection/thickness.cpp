@@ -1,5 +1,6 @@
 #include "projection/thickness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -7,6 +8,8 @@
 namespace visorder {
 
 namespace {
+
+constexpr double tiny = 1e-12; // pixels
 
 double cross(const glm::dvec2& a, const glm::dvec2& b)
 {
@@ -23,10 +26,15 @@ struct Corners {
     glm::dvec2 second, third, fourth; // from the first, in pixels
 };
 
-Corners corners_of(const VisibleCell& cell, double pixels_a_step)
+glm::dvec2 flat(const glm::dvec3& p)
 {
-    return {glm::dvec2(cell.at[1] - cell.at[0]) * pixels_a_step, glm::dvec2(cell.at[2] - cell.at[0]) * pixels_a_step,
-            glm::dvec2(cell.at[3] - cell.at[0]) * pixels_a_step};
+    return {p.x, p.y};
+}
+
+Corners corners_of(const VisibleCell& cell)
+{
+    const glm::dvec2 first = flat(cell.at[0]);
+    return {flat(cell.at[1]) - first, flat(cell.at[2]) - first, flat(cell.at[3]) - first};
 }
 
 // Of the three outer points' areas with the inner one, in it.
@@ -64,33 +72,49 @@ glm::vec4 combined(const std::array<glm::vec4, 4>& values, const std::array<doub
     return sum;
 }
 
-double length_at(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
+double length_at(const TriangleSources& from, const ThickPoint& point)
 {
     const Screen& screen = *from.screen;
     const double inverse = screen.inverse_distance();
-    const glm::dvec2 pixel = glm::dvec2(cell.at[0]) / static_cast<double>(from.lattice.steps) + point.at;
     return (point.back_depth - point.front_depth) /
            ((1 - point.front_depth * inverse) * (1 - point.back_depth * inverse)) *
-           glm::length(screen.rays() * glm::dvec3(pixel, 1));
+           glm::length(screen.rays() * glm::dvec3(point.at, 1));
+}
+
+void measure_quad(Thickness& t, const Corners& c, double least_width)
+{
+    const glm::dvec2 farther = c.fourth - c.third;
+    const Crossing crossing = crossing_of(c);
+    // Coordinate 1 is 1 at the first point and 0 on the farther edge; 2 is 1 at the third and 0 on the nearer edge.
+    t.k1_exact = -across(farther) / cross(c.third, farther);
+    t.k2_exact = across(c.second) / cross(c.third, c.second);
+    const double least = std::max(least_width, tiny);
+    t.opposite1 = -std::max((1 - crossing.along_first) / crossing.along_first, least * glm::length(t.k1_exact));
+    t.opposite2 = -std::max((1 - crossing.along_second) / crossing.along_second, least * glm::length(t.k2_exact));
+    t.along_first = crossing.along_first;
+    t.along_second = crossing.along_second;
+    t.k1 = glm::vec2(t.k1_exact);
+    t.k2 = glm::vec2(t.k2_exact);
+    t.k3 = glm::vec2(1 / t.opposite1, 1 / t.opposite2);
 }
 
 } // namespace
 
-CellValues values_of(const VisibleCell& cell, const ScreenPoints& points, double inverse_distance)
+CellValues values_of(const VisibleCell& cell, std::span<const float> scalars, double inverse_distance)
 {
     CellValues values{};
     for (std::size_t i = 0; i < 4; ++i) {
-        const glm::vec4& p = points.exact[cell.points[i]];
-        values.depth[i] = p.z;
-        values.scalar[i] = p.w * (1 - values.depth[i] * inverse_distance);
+        values.depth[i] = cell.at[i].z;
+        values.scalar[i] = static_cast<double>(scalars[cell.points[i]]) * (1 - values.depth[i] * inverse_distance);
     }
     return values;
 }
 
-ThickPoint thick_point(const VisibleCell& cell, const CellValues& values, double pixels_a_step)
+ThickPoint thick_point(const VisibleCell& cell, const CellValues& values)
 {
-    const Corners c = corners_of(cell, pixels_a_step);
+    const Corners c = corners_of(cell);
     ThickPoint point{};
+    point.at = flat(cell.at[0]);
     if (cell.kind == SilhouetteClass::triangle) {
         const std::array<double, 3> shares = shares_at_inner(c);
         point.front_shares = {1, 0, 0, 0};
@@ -99,7 +123,7 @@ ThickPoint thick_point(const VisibleCell& cell, const CellValues& values, double
             std::swap(point.front_shares, point.back_shares);
     } else {
         const Crossing crossing = crossing_of(c);
-        point.at = crossing.along_first * c.second;
+        point.at += crossing.along_first * c.second;
         point.front_shares = {1 - crossing.along_first, crossing.along_first, 0, 0};
         point.back_shares = {0, 0, 1 - crossing.along_second, crossing.along_second};
     }
@@ -123,16 +147,14 @@ CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const
         for (glm::vec4& o : optics.at_points)
             o.w = 0;
         optics.at_thickest.w =
-            static_cast<float>(-std::expm1(-static_cast<double>(optics.at_thickest.w) * length_at(from, cell, point)));
+            static_cast<float>(-std::expm1(-static_cast<double>(optics.at_thickest.w) * length_at(from, point)));
     }
     return optics;
 }
 
-Thickness thickness_of(const VisibleCell& cell, const CellValues& values, double pixels_a_step)
+Thickness thickness_of(const VisibleCell& cell, const CellValues& values)
 {
-    const Corners c = corners_of(cell, pixels_a_step);
-    const auto& depth = values.depth;
-    const auto& scalar = values.scalar;
+    const Corners c = corners_of(cell);
     Thickness t{};
     t.kind = cell.kind;
     if (cell.kind == SilhouetteClass::triangle) {
@@ -143,52 +165,39 @@ Thickness thickness_of(const VisibleCell& cell, const CellValues& values, double
         const double whole = area1 + area2 + area3;
         t.share_slopes = {across(c.third - c.fourth) / whole, across(c.fourth - c.second) / whole,
                           across(c.second - c.third) / whole};
-        // One at the far edge of each triangle around the inner point; a triangle without area holds no pixel.
-        const auto slope = [](const glm::dvec2& a, const glm::dvec2& b, double area) {
-            return area == 0 ? glm::vec2(0) : glm::vec2(across(b - a) / area);
+        // One at the far edge of each triangle around the inner point.
+        const auto slope = [&](const glm::dvec2& a, const glm::dvec2& b, double area) {
+            const glm::dvec2 edge = b - a;
+            const double least = std::max(cell.least_width, tiny) * glm::length(edge);
+            const double wide = std::max(whole > 0 ? area : -area, least);
+            return wide == 0 ? glm::vec2(0) : glm::vec2(across(edge) / std::copysign(wide, whole));
         };
         t.k1 = slope(c.second, c.third, area1);
         t.k2 = slope(c.third, c.fourth, area2);
         t.k3 = slope(c.fourth, c.second, area3);
-        double face_depth = 0;
-        double face_scalar = 0;
-        glm::dvec2 depth_slope(0);
-        glm::dvec2 scalar_slope(0);
-        for (std::size_t i = 0; i < 3; ++i) {
-            face_depth += t.inner_shares[i] * depth[i + 1];
-            face_scalar += t.inner_shares[i] * scalar[i + 1];
-            depth_slope += depth[i + 1] * t.share_slopes[i];
-            scalar_slope += scalar[i + 1] * t.share_slopes[i];
-        }
-        t.depth_slope = glm::vec2(depth_slope);
-        t.scalar_slope = glm::vec2(scalar_slope);
-        t.depth_base = static_cast<float>(face_depth);
-        t.scalar_base = static_cast<float>(face_scalar);
-        t.depth_rise = static_cast<float>(depth[0] - face_depth);
-        t.scalar_rise = static_cast<float>(scalar[0] - face_scalar);
         t.swapped = !cell.inner_behind;
-        return t;
+    } else {
+        measure_quad(t, c, cell.least_width);
     }
-    const glm::dvec2 farther = c.fourth - c.third;
-    const Crossing crossing = crossing_of(c);
-    // Coordinate 1 is 1 at the first point and 0 on the farther edge; 2 is 1 at the third and 0 on the nearer edge.
-    t.k1_exact = -across(farther) / cross(c.third, farther);
-    t.k2_exact = across(c.second) / cross(c.third, c.second);
-    t.opposite1 = -(1 - crossing.along_first) / crossing.along_first;
-    t.opposite2 = -(1 - crossing.along_second) / crossing.along_second;
-    t.k1 = glm::vec2(t.k1_exact);
-    t.k2 = glm::vec2(t.k2_exact);
-    t.k3 = glm::vec2(1 / t.opposite1, 1 / t.opposite2);
-    const auto linear = [&](const std::array<double, 4>& value, float& base, float& rise, glm::vec2& slope) {
-        const double near = mix(value[0], value[1], crossing.along_first);
-        const double far = mix(value[2], value[3], crossing.along_second);
-        base = static_cast<float>(value[0]);
-        rise = static_cast<float>(far - near);
-        slope = glm::vec2((value[0] - near) * t.k1_exact + (value[2] - far) * t.k2_exact);
-    };
-    linear(depth, t.depth_base, t.depth_rise, t.depth_slope);
-    linear(scalar, t.scalar_base, t.scalar_rise, t.scalar_slope);
+    t.depth = t.linear(values.depth);
+    t.scalar = t.linear(values.scalar);
     return t;
+}
+Thickness::Linear Thickness::linear(const std::array<double, 4>& value) const
+{
+    if (kind == SilhouetteClass::triangle) {
+        double face = 0;
+        glm::dvec2 slope(0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            face += inner_shares[i] * value[i + 1];
+            slope += value[i + 1] * share_slopes[i];
+        }
+        return {glm::vec2(slope), static_cast<float>(face), static_cast<float>(value[0] - face)};
+    }
+    const double near = mix(value[0], value[1], along_first);
+    const double far = mix(value[2], value[3], along_second);
+    return {glm::vec2((value[0] - near) * k1_exact + (value[2] - far) * k2_exact), static_cast<float>(value[0]),
+            static_cast<float>(far - near)};
 }
 
 std::array<glm::vec4, 5> Thickness::interpolate(const std::array<glm::vec4, 4>& at_points,

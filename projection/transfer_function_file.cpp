@@ -96,7 +96,7 @@ TransferFunction transfer_function_of(const json& content, const TransferFunctio
     const json& map = chosen(content, options.map);
     if (!map.is_object())
         throw InputError("a colour map must be an object");
-    return transfer_function_of_paraview(map, options.unit_length);
+    return transfer_function_of_paraview(map, options);
 }
 
 } // namespace
@@ -105,6 +105,10 @@ TransferFunction read_transfer_function(const std::filesystem::path& file, const
 {
     if (!std::isfinite(options.unit_length) || options.unit_length <= 0)
         throw InputError(fmt::format("unit length {} must be above 0 and finite", options.unit_length));
+    if (const auto& spread = options.spread;
+        spread &&
+        !(std::isfinite(spread->lowest) && std::isfinite(spread->highest) && spread->lowest <= spread->highest))
+        throw InputError(fmt::format("scalars from {} to {} are no range", spread->lowest, spread->highest));
     try {
         return transfer_function_of(parse(file), options);
     } catch (const InputError& error) {

@@ -3,13 +3,20 @@
 #include "projection/transfer_function.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace visorder {
 
+struct ScalarInterval {
+    double lowest, highest;
+};
+
 struct TransferFunctionFileOptions {
     double unit_length = 1; ///< the distance over which the opacities of a ParaView file hold
     std::string map;        ///< the name of the colour map to take from a ParaView file that holds several
+    /// The lowest and the highest scalar of a scene, over which a ParaView map from 0 to 1 is spread.
+    std::optional<ScalarInterval> spread = std::nullopt;
 };
 
 /// Reads a transfer function from a JSON file in one of two formats.
@@ -30,8 +37,11 @@ struct TransferFunctionFileOptions {
 /// Refused are midpoints other than 0.5, sharpness other than 0, logarithmic scales ("UseLogScale") and maps of colours
 /// for categories ("IndexedColors" without "RGBPoints"). NanColor and the rest are of no use here.
 ///
-/// Scalars are taken as they stand, not spread over a scene's range. Throws InputError, one line that names the file
-/// and the point (counted from 0): a file that cannot be read or is no JSON, and what TransferFunction does not take.
+/// Scalars are taken as they stand, but for a ParaView map of which the colours run from exactly 0 to exactly 1, as
+/// those of most presets do: where there is a range to spread it over, colours and opacities are, as in ParaView when a
+/// preset is chosen. Over a range of one scalar it is constant, what it is at 0. Throws InputError, one line that names
+/// the file and the point (counted from 0): a file that cannot be read or is no JSON, and what TransferFunction does
+/// not take.
 TransferFunction read_transfer_function(const std::filesystem::path& file,
                                         const TransferFunctionFileOptions& options = {});
 

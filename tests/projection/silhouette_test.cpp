@@ -52,7 +52,8 @@ std::vector<Seen> random_cells(int count, int range)
             std::swap(seen.points[0], seen.points[1]);
             std::swap(seen.depth[0], seen.depth[1]);
         }
-        seen.silhouette = silhouette_of(seen.points);
+        seen.silhouette = silhouette_of({glm::dvec2(seen.points[0]), glm::dvec2(seen.points[1]),
+                                         glm::dvec2(seen.points[2]), glm::dvec2(seen.points[3])});
         for (const glm::ivec2& p : seen.points)
             seen.reproduce += fmt::format("({}, {}) ", p.x, p.y);
         cells.push_back(seen);
@@ -68,7 +69,7 @@ VisibleCell visible(const Seen& seen)
     const std::size_t rotated = cell.kind == SilhouetteClass::quad && behind ? 2 : 0;
     for (std::size_t i = 0; i < 4; ++i) {
         cell.points[i] = seen.silhouette.points[i ^ rotated];
-        cell.at[i] = seen.points[cell.points[i]];
+        cell.at[i] = glm::dvec3(seen.points[cell.points[i]], seen.depth[cell.points[i]]);
     }
     cell.inner_behind = behind;
     return cell;
@@ -144,8 +145,8 @@ TEST(Thickness, IsLargestAtTheThickestPointAndRightThere)
         if (seen.silhouette.kind == SilhouetteClass::empty)
             continue;
         const VisibleCell cell = visible(seen);
-        const ThickPoint point = thick_point(cell, values(seen, cell), 1);
-        const auto [front, back] = interval(seen, glm::dvec2(cell.at[0]) + point.at);
+        const ThickPoint point = thick_point(cell, values(seen, cell));
+        const auto [front, back] = interval(seen, point.at);
         EXPECT_NEAR(point.front_depth, front, 1e-9);
         EXPECT_NEAR(point.back_depth, back, 1e-9);
     }
@@ -160,26 +161,26 @@ TEST(Thickness, GivesEntryAndExitAtEveryPixel)
         if (seen.silhouette.kind == SilhouetteClass::empty)
             continue;
         const VisibleCell cell = visible(seen);
-        const Thickness t = thickness_of(cell, values(seen, cell), 1);
+        const Thickness t = thickness_of(cell, values(seen, cell));
         std::array<double, 4> shares{share(random), share(random), share(random), share(random)};
         const double sum = shares[0] + shares[1] + shares[2] + shares[3];
         glm::dvec2 place(0);
         for (std::size_t i = 0; i < 4; ++i)
             place += shares[i] / sum * glm::dvec2(seen.points[i]);
 
-        const glm::vec2 r(place - glm::dvec2(cell.at[0]));
+        const glm::vec2 r(place - glm::dvec2(cell.at[0].x, cell.at[0].y));
         const bool quad = t.kind == SilhouetteClass::quad;
         const float t1 = glm::dot(t.k1, r) + (quad ? 1.0F : 0.0F);
         const float t2 = glm::dot(t.k2, r);
         const float t3 = quad ? t.k3.x * t1 : glm::dot(t.k3, r);
         const float g = quad ? std::max(t2, t.k3.y * t2) : 0.0F;
         const float m = quad ? std::max(t1, t3) : std::max({t1, t2, t3});
-        const float one = t.depth_base + glm::dot(t.depth_slope, r) + t.depth_rise * g;
-        const float other = one + t.depth_rise * (1 - g - m);
+        const float one = t.depth.base + glm::dot(t.depth.slope, r) + t.depth.rise * g;
+        const float other = one + t.depth.rise * (1 - g - m);
         const auto [front, back] = interval(seen, place);
         EXPECT_NEAR(t.swapped ? other : one, front, 2e-4);
         EXPECT_NEAR(t.swapped ? one : other, back, 2e-4);
-        const float one_scalar = t.scalar_base + glm::dot(t.scalar_slope, r) + t.scalar_rise * g;
+        const float one_scalar = t.scalar.base + glm::dot(t.scalar.slope, r) + t.scalar.rise * g;
         EXPECT_NEAR(one_scalar, 3 * one + place.x, 1e-3);
     }
 }

@@ -111,6 +111,37 @@ TEST(TransferFunctionFile, MakesParaViewsColoursLinear)
     EXPECT_EQ(function.at(1).colour, linear_of_srgb(glm::dvec3(0.5, 0.25, 1)));
 }
 
+TEST(TransferFunctionFile, SpreadsParaViewsPresetsFromZeroToOneOverAScene)
+{
+    const char* preset = R"([{"RGBPoints": [0, 1, 0, 0, 0.25, 0, 1, 0, 1, 0, 0, 1],
+                              "Points": [0, 0.1, 0.5, 0, 0.5, 0.1, 0.5, 0, 0.5, 0.6, 0.5, 0, 1, 0.6, 0.5, 0]}])";
+    const TransferFunction plain = read(preset);
+    const TransferFunction over_scene = read(preset, {1, "", ScalarInterval{-2, 6}});
+    for (double position = -0.25; position < 1.25; position += 1.0 / 64) {
+        EXPECT_EQ(over_scene.at(-2 + 8 * position).colour, plain.at(position).colour) << position;
+        EXPECT_EQ(over_scene.at(-2 + 8 * position).extinction, plain.at(position).extinction) << position;
+    }
+    EXPECT_EQ(over_scene.points().front().scalar, -2);
+    EXPECT_EQ(over_scene.points().back().scalar, 6);
+
+    const TransferFunction constant = read(preset, {1, "", ScalarInterval{3, 3}});
+    EXPECT_EQ(constant.points().size(), 1U);
+    EXPECT_EQ(constant.at(7).colour, glm::dvec3(1, 0, 0));
+    EXPECT_THROW(read(preset, {1, "", ScalarInterval{3, 2}}), InputError);
+}
+
+TEST(TransferFunctionFile, TakesOtherMapsOfParaViewAsTheyStand)
+{
+    const TransferFunction function = read(paraview(""), {1, "", ScalarInterval{-2, 6}});
+    EXPECT_EQ(function.points().front().scalar, 0);
+    EXPECT_EQ(function.points().back().scalar, 4);
+    const TransferFunction own_format =
+        read(own(R"({"scalar": 0, "extinction": 1, "colour": [0, 0, 0]}, {"scalar": 1, "extinction": 2,
+                    "colour": [0, 0, 0]})"),
+             {1, "", ScalarInterval{-2, 6}});
+    EXPECT_EQ(own_format.points().back().scalar, 1);
+}
+
 TEST(TransferFunctionFile, KeepsParaViewsJumps)
 {
     const TransferFunction function = read(R"([{"RGBPoints": [0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 3, 0, 0, 1],
