@@ -1,6 +1,7 @@
 #pragma once
 
 #include "projection/cell_triangles.h"
+#include "projection/optical_pieces.h"
 #include "projection/screen.h"
 #include "projection/visible_cells.h"
 #include "scene/adjacency.h"
@@ -24,6 +25,7 @@ struct TriangleSources {
     RasterLattice lattice;
     std::span<const glm::vec4> optics; ///< colour and extinction at each point; only where vertices are interpolated
     bool opacity_at_thickest = false;  ///< whether the fourth component interpolated is opacity, not extinction
+    const OpticalPieces* pieces = nullptr; ///< the transfer function; only where what is integrated is cut by it
 };
 
 /// The way between a boundary face with its corners on the rasteriser's lattice and the same face where it is. Inside a

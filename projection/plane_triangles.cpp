@@ -2,10 +2,12 @@
 
 namespace visorder {
 
-std::size_t PlaneTriangles::make(std::span<const CellId> cells, std::byte* into,
+std::size_t PlaneTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                                  std::vector<CellOffLattice>& off_lattice) const
 {
-    auto* const first = reinterpret_cast<PlaneRecord*>(into);
+    constexpr std::size_t most_a_cell = 2;
+    into.resize(cells.size() * most_a_cell * triangle_bytes());
+    auto* const first = reinterpret_cast<PlaneRecord*>(into.data());
     PlaneRecord* next = first;
     const auto put = [&](const VisibleCell& cell, std::uint32_t kind) {
         *next = cell.points;

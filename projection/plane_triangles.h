@@ -28,8 +28,8 @@ public:
     explicit PlaneTriangles(const VisibleCells& cells) : cells_(cells) {}
 
     std::size_t triangle_bytes() const override { return sizeof(PlaneRecord); }
-    std::size_t most_a_cell() const override { return 2; }
-    std::size_t make(std::span<const CellId> cells, std::byte* into,
+    int vertex_attributes() const override { return 0; }
+    std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellOffLattice>& off_lattice) const override;
 
 private:

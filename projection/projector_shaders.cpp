@@ -1,6 +1,7 @@
 #include "projection/projector_shaders.h"
 
 #include "projection/integrator_shaders.h"
+#include "projection/silhouette_layout.h"
 
 namespace visorder {
 
@@ -24,6 +25,7 @@ uniform float half_range;
 
 flat out vec4 point0, point1, point2, point3;
 flat out uint kind;
+flat out float steps;
 #ifdef OPTICS
 flat out vec4 optics0, optics1, optics2, optics3;
 #endif
@@ -33,6 +35,7 @@ void main()
     uvec4 record = records[gl_VertexID / 3];
     int corner = gl_VertexID % 3;
     kind = record.x >> 30;
+    steps = lattice_steps;
     point0 = points[record.x & 0x3fffffffu];
     point1 = points[record.y];
     point2 = points[record.z];
@@ -48,17 +51,53 @@ void main()
     optics2 = optics_at(point2.w);
     optics3 = optics_at(point3.w);
 #endif
+    hand_on_view();
 }
 )";
 
-constexpr const char* ray_text = R"(
+constexpr const char* result_text = R"(
 layout(location = 0) out vec4 result;
+)";
+
+constexpr const char* near_ray_text = R"(
 uniform vec2 centre;                 // of the image, pixels
 uniform vec3 ray_x, ray_y, ray_1;    // see Screen::rays
 
 float length_per_depth(vec2 pixel)
 {
     return length(pixel.x * ray_x + pixel.y * ray_y + ray_1);
+}
+)";
+
+// Of the view, what is the same for all fragments. Vertex shaders hand it on: software renderers gather a uniform for
+// each fragment, but read an interpolated value once.
+constexpr const char* view_vertex_text = R"(
+uniform vec2 centre;                 // of the image, pixels
+uniform vec3 ray_x, ray_y, ray_1;    // see Screen::rays
+uniform float inverse_distance;
+
+flat out vec4 middle_and_inverse; // centre, inverse distance
+flat out vec3 ray_squares, ray_products;
+
+void hand_on_view()
+{
+    middle_and_inverse = vec4(centre, inverse_distance, 0.0);
+    ray_squares = vec3(dot(ray_x, ray_x), dot(ray_y, ray_y), dot(ray_1, ray_1));
+    ray_products = 2.0 * vec3(dot(ray_x, ray_y), dot(ray_x, ray_1), dot(ray_y, ray_1));
+}
+)";
+
+constexpr const char* view_text = R"(
+flat in vec4 middle_and_inverse;
+flat in vec3 ray_squares, ray_products;
+
+#define centre middle_and_inverse.xy
+#define inverse_distance middle_and_inverse.z
+
+float length_per_depth(vec2 pixel)
+{
+    return sqrt((ray_squares.x * pixel.x + ray_products.x * pixel.y + ray_products.y) * pixel.x +
+                (ray_squares.y * pixel.y + ray_products.z) * pixel.y + ray_squares.z);
 }
 )";
 
@@ -72,12 +111,11 @@ flat in uint kind;
 #ifdef OPTICS
 flat in vec4 optics0, optics1, optics2, optics3;
 #endif
-uniform float lattice_steps;
-uniform float inverse_distance;
+flat in float steps;
 
 float area(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
-vec2 snapped(vec4 point) { return roundEven(point.xy * lattice_steps) / lattice_steps; }
+vec2 snapped(vec4 point) { return roundEven(point.xy * steps) / steps; }
 
 vec3 within(vec2 a, vec2 b, vec2 c, vec2 pixel)
 {
@@ -154,94 +192,64 @@ void main()
 }
 )";
 
-constexpr const char* silhouette_vertex_text = R"(
-struct Triangle {
-    vec4 place, k12, k3_bases, slopes;
-    vec2 corners[4];
-#ifdef OPTICS
-    vec4 colours[5];
-#endif
-};
-layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
-uniform float half_range;
-
-flat out vec4 place, k12, k3_bases, slopes;
-#ifdef OPTICS
-flat out vec4 colours[5];
-#endif
-
-void main()
-{
-    int triangle = gl_VertexID / 3;
-    place = triangles[triangle].place;
-    k12 = triangles[triangle].k12;
-    k3_bases = triangles[triangle].k3_bases;
-    slopes = triangles[triangle].slopes;
-#ifdef OPTICS
-    for (int i = 0; i < 5; ++i)
-        colours[i] = triangles[triangle].colours[i];
-#endif
-    // Dividing by a power of two is exact, and the viewport multiplies again.
-    gl_Position = vec4(triangles[triangle].corners[gl_VertexID - 3 * triangle] / half_range, 0.0, 1.0);
-}
-)";
-
-// See Thickness.
+// See Thickness and SilhouetteLayout. Along the ray the scalar runs from `one` to `one + run`.
 constexpr const char* silhouette_text = R"(
-flat in vec4 place, k12, k3_bases, slopes;
-#ifdef OPTICS
-flat in vec4 colours[5];
-#endif
-uniform float inverse_distance;
-
 void main()
 {
-    vec2 pixel = gl_FragCoord.xy - centre;
-    vec2 r = pixel + 16384.0 - abs(place.xy);
+    vec2 r = gl_FragCoord.xy + 16384.0 - abs(place.xy);
     bool quad = place.x < 0.0;
-    float t1 = dot(k12.xy, r) + (quad ? 1.0 : 0.0);
-    float t2 = dot(k12.zw, r);
-    float t3 = quad ? t1 * k3_bases.x : dot(k3_bases.xy, r);
-    float g = quad ? max(t2, t2 * k3_bases.y) : 0.0;
+    bool swapped = place.y < 0.0;
+    float t1 = dot(tents.xy, r) + (quad ? 1.0 : 0.0);
+    float t2 = dot(tents.zw, r);
+    float t3 = quad ? t1 * place.z : dot(place.zw, r);
+    float g = quad ? max(t2, t2 * place.w) : 0.0;
     float m = quad ? max(t1, t3) : max(max(t1, t2), t3);
     float thickness = 1.0 - g - m;
     // The triangle drawn may reach beyond a quad.
     thickness = quad ? max(thickness, 0.0) : thickness;
-    vec2 one = k3_bases.zw + slopes.xz * r.x + slopes.yw * r.y + place.zw * g;
-    vec2 other = one + place.zw * thickness;
-    // Back from what is linear on the screen.
-    float one_scale = 1.0 - one.x * inverse_distance;
-    float other_scale = 1.0 - other.x * inverse_distance;
-    float scale = 1.0 / (one_scale * other_scale);
-    float len = place.z * thickness * scale * length_per_depth(pixel);
-    float one_scalar = one.y * other_scale * scale;
-    float other_scalar = other.y * one_scale * scale;
-    bool swapped = place.y < 0.0;
 #ifdef OPTICS
-    vec4 optics = colours[0] + colours[1] * r.x + colours[2] * r.y + colours[3] * g + colours[4] * m;
+    vec4 optics = colour0 + colour1 * r.x + colour2 * r.y + colour3 * g + colour4 * m;
 #endif
 #ifdef LINEAR
     // Below zero beyond a quad.
     optics.w = max(optics.w, 0.0);
     result = vec4(optics.rgb * optics.w, optics.w);
 #else
+    float one = rises.z + dot(slopes.xy, r);
+    float run = rises.y * thickness;
+    float len = rises.x * thickness;
+#ifdef PERSPECTIVE
+    // Back from what is linear on the screen.
+    float one_scale = ray_and_scale.z + dot(slopes.zw, r);
+    float rise = rises.y * one_scale - rises.w * one;
+    one_scale += rises.w * g;
+    float other_scale = one_scale + rises.w * thickness;
+    float scale = 1.0 / (one_scale * other_scale);
+    one = (one + rises.y * g) * other_scale * scale;
+    run = rise * thickness * scale;
+    len *= scale * sqrt(ray.x + (ray.y + ray.w * r.x + ray_and_scale.x * r.y) * r.x +
+                        (ray.z + ray_and_scale.y * r.y) * r.y);
+#else
+    one += rises.y * g;
+#endif
+#ifdef PASSES
+    result = light_of_pass(one, run, len, swapped);
+#else
 #ifndef OPTICS
     vec4 optics = vec4(0.0);
 #endif
-    result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, swapped ? -len : len,
-                      optics, optics);
+    result = light_of(swapped ? one + run : one, swapped ? one : one + run, len, optics, optics);
+#endif
 #endif
 }
 )";
 
 constexpr const char* thick_vertex_text = R"(
-struct Corner {
-    vec4 place_and_front, back;
+layout(location = 0) in vec4 place_and_front;
+layout(location = 1) in vec4 back_given;
 #ifdef OPTICS
-    vec4 optics;
+layout(location = 2) in vec4 optics_given;
 #endif
-};
-layout(std430, binding = 1) readonly buffer Corners { Corner corners[]; };
 uniform float half_range;
 
 noperspective out vec2 front, back; // depth, and scalar times 1 - depth / D
@@ -251,12 +259,13 @@ noperspective out vec4 optics;
 
 void main()
 {
-    front = corners[gl_VertexID].place_and_front.zw;
-    back = corners[gl_VertexID].back.xy;
+    front = place_and_front.zw;
+    back = back_given.xy;
 #ifdef OPTICS
-    optics = corners[gl_VertexID].optics;
+    optics = optics_given;
 #endif
-    gl_Position = vec4(corners[gl_VertexID].place_and_front.xy / half_range, 0.0, 1.0);
+    gl_Position = vec4(place_and_front.xy / half_range, 0.0, 1.0);
+    hand_on_view();
 }
 )";
 
@@ -267,7 +276,6 @@ noperspective in vec4 optics;
 #else
 const vec4 optics = vec4(0.0);
 #endif
-uniform float inverse_distance;
 
 void main()
 {
@@ -334,17 +342,24 @@ void main()
 
 } // namespace
 
-ShaderPair triangle_shaders(Projector projector, Integrator integrator)
+ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective)
 {
-    const std::string start = header(integrator);
-    const std::string fragment = start + ray_text + integrator_shader(integrator);
+    std::string start = header(integrator);
+    const std::string integrate = integrator_shader(integrator);
     switch (projector) {
-    case Projector::silhouette:
-        return {start + silhouette_vertex_text, fragment + silhouette_text};
+    case Projector::silhouette: {
+        const SilhouetteLayout layout(integrator, perspective);
+        const bool passes = integrator == Integrator::exact;
+        start += perspective ? "#define PERSPECTIVE\n" : "";
+        start += passes ? "#define PASSES\n" : "";
+        return {start + layout.vertex_shader(), start + result_text + layout.declarations() +
+                                                    (passes ? optical_pass_shader() : integrate) + silhouette_text};
+    }
     case Projector::thick:
-        return {start + thick_vertex_text, fragment + thick_text};
+        return {start + view_vertex_text + thick_vertex_text, start + result_text + view_text + integrate + thick_text};
     case Projector::planes:
-        return {start + (needs_optics(integrator) ? optics_shader() : "") + planes_vertex_text, fragment + planes_text};
+        return {start + view_vertex_text + (needs_optics(integrator) ? optics_shader() : "") + planes_vertex_text,
+                start + result_text + view_text + integrate + planes_text};
     }
     return {};
 }
@@ -353,7 +368,7 @@ ShaderPair near_cell_shaders(Integrator integrator)
 {
     const std::string optics = needs_optics(integrator) ? optics_shader() : "";
     return {header(integrator) + near_cell_vertex_text,
-            header(integrator) + ray_text + optics + integrator_shader(integrator) + near_cell_text};
+            header(integrator) + result_text + near_ray_text + optics + integrator_shader(integrator) + near_cell_text};
 }
 
 } // namespace visorder

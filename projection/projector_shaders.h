@@ -12,8 +12,8 @@ struct ShaderPair {
     std::string fragment;
 };
 
-/// What PlaneTriangles, SilhouetteTriangles and ThickTriangles make.
-ShaderPair triangle_shaders(Projector projector, Integrator integrator);
+/// For what PlaneTriangles, SilhouetteTriangles and ThickTriangles make.
+ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective);
 
 /// A rectangle around one NearCell.
 ShaderPair near_cell_shaders(Integrator integrator);

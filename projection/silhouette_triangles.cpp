@@ -1,20 +1,18 @@
 #include "projection/silhouette_triangles.h"
 
+#include "projection/optical_passes.h"
 #include "projection/thickness.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <optional>
 
 namespace visorder {
 
 namespace {
 
-// What the vertex shader reads, in floats: see projector_shaders.cpp.
-constexpr std::size_t plain_floats = 24;
-constexpr std::size_t optics_floats = 20;
 // Added to a place, in pixels, so that its coordinates are positive and their signs can say something else.
 constexpr float place_offset = 16384;
 
@@ -65,73 +63,168 @@ std::optional<std::array<glm::vec2, 3>> triangle_around(const std::array<glm::iv
                                     glm::vec2(origin + v[(best + 3) % 4] * pixels_a_step)};
 }
 
+// What is written beside a Thickness.
+struct Range {
+    float lowest = 0, highest = 0; // scalar
+    float reference = 0;           // what the scalars are relative to
+    double longest = 0;            // depth, of a way through the cell
+};
+
 } // namespace
 
 struct SilhouetteTriangles::Writer {
     const SilhouetteTriangles& triangles;
-    float* next;
+    LargeArray<std::byte>& into;
     std::size_t count = 0;
+    std::vector<OpticalPass> passes{};
 
-    void put(float value) { *next++ = value; }
-    void put(const glm::vec2& value)
+    using Corners = std::array<glm::vec2, 3>;
+
+    std::byte* next()
     {
-        put(value.x);
-        put(value.y);
+        const std::size_t bytes = triangles.triangle_bytes();
+        if (into.size() < (count + 1) * bytes)
+            into.resize(2 * (count + 1) * bytes);
+        return into.data() + count++ * bytes;
     }
 
-    // One triangle with the corners given, in pixels.
-    void put(const Thickness& t, const glm::ivec2& reference, const std::array<glm::vec2, 3>& corners,
-             const std::array<glm::vec4, 5>& colours)
+    // The triangles with the corners given, in pixels; `at` is where the cell's points are, the first one's place the
+    // Thickness' origin.
+    void put(const Thickness& t, std::span<const glm::ivec2> at, std::span<const Corners> halves,
+             const std::array<glm::vec4, 5>& colours, const Range& range)
     {
-        const auto step = static_cast<float>(triangles.pixels_a_step_);
-        const glm::vec2 place = glm::vec2(reference) * step + place_offset;
-        put(t.kind == SilhouetteClass::quad ? -place.x : place.x);
-        put(t.swapped ? -place.y : place.y);
-        put(t.depth_rise);
-        put(t.scalar_rise);
-        put(t.k1);
-        put(t.k2);
-        put(t.k3);
-        put(t.depth_base);
-        put(t.scalar_base);
-        put(t.depth_slope);
-        put(t.scalar_slope);
-        for (const glm::vec2& corner : corners)
-            put(corner);
-        put(glm::vec2(0));
-        if (!triangles.from_.optics.empty()) {
-            std::memcpy(next, colours.data(), sizeof colours);
-            next += optics_floats;
+        const glm::dvec2 origin = glm::dvec2(at[0]) * triangles.pixels_a_step_;
+        const glm::vec2 place = glm::vec2(origin + glm::dvec2(triangles.from_.screen->centre())) + place_offset;
+        const double inverse = triangles.inverse_distance_;
+        const double depth_rise = static_cast<double>(t.swapped ? -t.depth_rise : t.depth_rise);
+        const glm::dmat3& squared = triangles.ray_squared_;
+        // Parallel rays are all of one length.
+        const double a_depth = triangles.perspective_ ? 1 : std::sqrt(squared[2][2]);
+        std::array<glm::vec4, SilhouetteLayout::most_vectors> vectors;
+        std::size_t size = 0;
+        vectors[size++] = {t.k1, t.k2};
+        vectors[size++] = {static_cast<float>(a_depth * depth_rise), t.scalar_rise, t.scalar_base,
+                           static_cast<float>(-static_cast<double>(t.depth_rise) * inverse)};
+        vectors[size++] = {t.scalar_slope, glm::vec2(-glm::dvec2(t.depth_slope) * inverse)};
+        const std::size_t medium = size;
+        if (triangles.from_.pieces != nullptr)
+            size += 3;
+        if (!triangles.from_.optics.empty())
+            for (const glm::vec4& colour : colours)
+                vectors[size++] = colour;
+        const glm::dvec3 ray_place(origin, 1);
+        if (triangles.perspective_) {
+            const glm::dvec3 slope = 2.0 * (squared * ray_place);
+            vectors[size++] = {glm::dot(ray_place, squared * ray_place), slope.x, slope.y, squared[0][0]};
+            vectors[size++] = {2 * squared[0][1], squared[1][1], 1 - static_cast<double>(t.depth_base) * inverse, 0};
         }
-        ++count;
+        const glm::vec4 head(t.kind == SilhouetteClass::quad ? -place.x : place.x, t.swapped ? -place.y : place.y,
+                             t.k3);
+        const auto write = [&] {
+            for (Corners corners : halves) {
+                for (glm::vec2& corner : corners)
+                    corner /= static_cast<float>(triangles.from_.lattice.half_range);
+                triangles.layout_.write(next(), corners, head, std::span(vectors).first(size));
+            }
+        };
+        if (triangles.from_.pieces == nullptr) {
+            write();
+            return;
+        }
+        find_optical_passes(*triangles.from_.pieces, ways_of(t, at, range), passes);
+        for (const OpticalPass& pass : passes) {
+            vectors[medium] = pass.medium;
+            vectors[medium + 1] = pass.rise;
+            vectors[medium + 2] = pass.window;
+            write();
+        }
+    }
+
+    CellWays ways_of(const Thickness& t, std::span<const glm::ivec2> at, const Range& range) const
+    {
+        CellWays ways{range.lowest,      range.highest,     range.reference, range.longest,
+                      t.scalar_rise > 0, t.scalar_rise < 0, t.swapped};
+        if (!triangles.perspective_) {
+            ways.longest *= std::sqrt(triangles.ray_squared_[2][2]);
+            return ways;
+        }
+        // Distance over depth is most at a corner. Along a ray the scalar rises as a function does that is linear on
+        // the screen.
+        const double inverse = triangles.inverse_distance_;
+        const double base_scale = 1 - static_cast<double>(t.depth_base) * inverse;
+        const glm::dvec2 scale_slope = -inverse * glm::dvec2(t.depth_slope);
+        double least_scale = 1e300;
+        double longest_ray = 0;
+        double least_rise = 1e300;
+        double most_rise = -1e300;
+        for (const glm::ivec2& point : at) {
+            const glm::dvec2 r = glm::dvec2(point - at[0]) * triangles.pixels_a_step_;
+            const glm::dvec3 place(glm::dvec2(point) * triangles.pixels_a_step_, 1);
+            const double scale = base_scale + glm::dot(scale_slope, r);
+            const double scalar = static_cast<double>(t.scalar_base) + glm::dot(glm::dvec2(t.scalar_slope), r);
+            const double rise =
+                static_cast<double>(t.scalar_rise) * scale + static_cast<double>(t.depth_rise) * inverse * scalar;
+            least_rise = std::min(least_rise, rise);
+            most_rise = std::max(most_rise, rise);
+            least_scale = std::min({least_scale, scale, scale - static_cast<double>(t.depth_rise) * inverse});
+            longest_ray = std::max(longest_ray, glm::dot(place, triangles.ray_squared_ * place));
+        }
+        ways.longest *= std::sqrt(longest_ray) / (least_scale * least_scale);
+        // Where rounding may decide, both.
+        const double doubt = 1e-5 * (std::abs(least_rise) + std::abs(most_rise));
+        ways.rises = most_rise > -doubt;
+        ways.falls = least_rise < doubt;
+        return ways;
+    }
+
+    // Makes scalars relative to the first point's, so that they keep their digits.
+    Range make_relative(const VisibleCell& cell, CellValues& values) const
+    {
+        const ScreenPoints& points = triangles.from_.cells->points();
+        Range range;
+        range.reference = range.lowest = range.highest = points.exact[cell.points[0]].w;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const float scalar = points.exact[cell.points[i]].w;
+            range.lowest = std::min(range.lowest, scalar);
+            range.highest = std::max(range.highest, scalar);
+            values.scalar[i] = (static_cast<double>(scalar) - static_cast<double>(range.reference)) *
+                               (1 - values.depth[i] * triangles.inverse_distance_);
+        }
+        return range;
     }
 
     void put_cell(const VisibleCell& cell)
     {
-        const CellValues values = values_of(cell, triangles.from_.cells->points(), triangles.inverse_distance_);
+        CellValues values = values_of(cell, triangles.from_.cells->points(), triangles.inverse_distance_);
+        Range range;
+        if (triangles.from_.pieces != nullptr)
+            range = make_relative(cell, values);
         const Thickness t = thickness_of(cell, values, triangles.pixels_a_step_);
+        range.longest = std::abs(static_cast<double>(t.depth_rise));
         std::array<glm::vec4, 5> colours{};
         if (!triangles.from_.optics.empty()) {
             const ThickPoint point = thick_point(cell, values, triangles.pixels_a_step_);
             const CellOptics optics = optics_of(triangles.from_, cell, point);
             colours = t.interpolate(optics.at_points, optics.at_thickest);
         }
-        if (cell.kind == SilhouetteClass::triangle) {
-            put(t, cell.at[0], on_lattice({cell.at[1], cell.at[2], cell.at[3]}), colours);
-            return;
+        std::array<Corners, 2> halves;
+        std::size_t size = 0;
+        if (cell.kind == SilhouetteClass::triangle)
+            halves[size++] = on_lattice({cell.at[1], cell.at[2], cell.at[3]});
+        else if (const auto around = cell.first_half && cell.second_half
+                                         ? triangle_around(cell.at, triangles.pixels_a_step_)
+                                         : std::nullopt)
+            halves[size++] = *around;
+        else {
+            if (cell.first_half)
+                halves[size++] = on_lattice({cell.at[0], cell.at[1], cell.at[2]});
+            if (cell.second_half)
+                halves[size++] = on_lattice({cell.at[0], cell.at[1], cell.at[3]});
         }
-        if (cell.first_half && cell.second_half)
-            if (const auto around = triangle_around(cell.at, triangles.pixels_a_step_)) {
-                put(t, cell.at[0], *around, colours);
-                return;
-            }
-        if (cell.first_half)
-            put(t, cell.at[0], on_lattice({cell.at[0], cell.at[1], cell.at[2]}), colours);
-        if (cell.second_half)
-            put(t, cell.at[0], on_lattice({cell.at[0], cell.at[1], cell.at[3]}), colours);
+        put(t, cell.at, std::span(halves).first(size), colours, range);
     }
 
-    std::array<glm::vec2, 3> on_lattice(const std::array<glm::ivec2, 3>& corners) const
+    Corners on_lattice(const std::array<glm::ivec2, 3>& corners) const
     {
         const auto step = static_cast<float>(triangles.pixels_a_step_);
         return {glm::vec2(corners[0]) * step, glm::vec2(corners[1]) * step, glm::vec2(corners[2]) * step};
@@ -145,16 +238,29 @@ struct SilhouetteTriangles::Writer {
         // As a thickness: rise (1 - k.r), with k.r in place of the largest of three.
         constexpr double least_rise = 1e-30;
         const double rise = std::copysign(std::max(std::abs(slab.missing[0]), least_rise), slab.missing[0]);
+        std::array<double, 3> scalar = slab.scalar;
+        Range range;
+        if (triangles.from_.pieces != nullptr) {
+            const ScreenPoints& points = triangles.from_.cells->points();
+            range.reference = points.exact[slab.face[0]].w;
+            range.lowest = range.highest = range.reference;
+            for (std::size_t i = 0; i < 3; ++i) {
+                range.lowest = std::min(range.lowest, points.exact[slab.face[i]].w);
+                range.highest = std::max(range.highest, points.exact[slab.face[i]].w);
+                scalar[i] -= static_cast<double>(range.reference) * (1 - slab.depth[i] * triangles.inverse_distance_);
+                range.longest = std::max(range.longest, std::abs(slab.missing[i]));
+            }
+        }
         Thickness t{};
         t.kind = SilhouetteClass::triangle;
         t.k1 = t.k2 = t.k3 = glm::vec2(-slope_of(corners, slab.missing) / rise);
         t.depth_base = static_cast<float>(slab.depth[0]);
-        t.scalar_base = static_cast<float>(slab.scalar[0]);
+        t.scalar_base = static_cast<float>(scalar[0]);
         t.depth_slope = glm::vec2(slope_of(corners, slab.depth));
-        t.scalar_slope = glm::vec2(slope_of(corners, slab.scalar));
+        t.scalar_slope = glm::vec2(slope_of(corners, scalar));
         t.depth_rise = static_cast<float>(rise);
         // The scalar hardly changes from the face on the lattice to where it is.
-        t.scalar_rise = static_cast<float>(-rise * triangles.inverse_distance_ * slab.scalar[0] /
+        t.scalar_rise = static_cast<float>(-rise * triangles.inverse_distance_ * scalar[0] /
                                            (1 - slab.depth[0] * triangles.inverse_distance_));
         t.swapped = slab.entry;
         std::array<glm::vec4, 5> colours{};
@@ -167,24 +273,25 @@ struct SilhouetteTriangles::Writer {
                 colours[2][k] = static_cast<float>(slope.y);
             }
         }
-        put(t, slab.at[0], on_lattice(slab.at), colours);
+        put(t, slab.at, std::array<Corners, 1>{on_lattice(slab.at)}, colours, range);
     }
 };
 
-SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources)
-    : from_(sources), pixels_a_step_(1.0 / sources.lattice.steps), inverse_distance_(sources.screen->inverse_distance())
+SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources, Integrator integrator)
+    : from_(sources),
+      layout_(integrator, sources.screen->perspective()),
+      perspective_(sources.screen->perspective()),
+      pixels_a_step_(1.0 / sources.lattice.steps),
+      inverse_distance_(sources.screen->inverse_distance()),
+      ray_squared_(glm::transpose(sources.screen->rays()) * sources.screen->rays())
 {
 }
 
-std::size_t SilhouetteTriangles::triangle_bytes() const
-{
-    return (plain_floats + (from_.optics.empty() ? 0 : optics_floats)) * sizeof(float);
-}
-
-std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, std::byte* into,
+std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                                       std::vector<CellOffLattice>& off_lattice) const
 {
-    return put_cells_with_slabs(from_, cells, Writer{*this, reinterpret_cast<float*>(into)}, off_lattice);
+    into.resize(cells.size() * triangle_bytes());
+    return put_cells_with_slabs(from_, cells, Writer{*this, into}, off_lattice);
 }
 
 } // namespace visorder

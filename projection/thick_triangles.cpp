@@ -86,10 +86,12 @@ std::size_t ThickTriangles::triangle_bytes() const
     return 3 * (plain_bytes + (from_.optics.empty() ? 0 : optics_bytes));
 }
 
-std::size_t ThickTriangles::make(std::span<const CellId> cells, std::byte* into,
+std::size_t ThickTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                                  std::vector<CellOffLattice>& off_lattice) const
 {
-    return put_cells_with_slabs(from_, cells, Writer{from_, into}, off_lattice);
+    constexpr std::size_t most_a_cell = 8;
+    into.resize(cells.size() * most_a_cell * triangle_bytes());
+    return put_cells_with_slabs(from_, cells, Writer{from_, into.data()}, off_lattice);
 }
 
 } // namespace visorder

@@ -11,8 +11,8 @@ public:
     explicit ThickTriangles(const TriangleSources& sources) : from_(sources) {}
 
     std::size_t triangle_bytes() const override;
-    std::size_t most_a_cell() const override { return 8; }
-    std::size_t make(std::span<const CellId> cells, std::byte* into,
+    int vertex_attributes() const override { return from_.optics.empty() ? 2 : 3; }
+    std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellOffLattice>& off_lattice) const override;
 
 private:

@@ -1,0 +1,55 @@
+#include "projection/silhouette_layout.h"
+
+#include "projection/integrator_shaders.h"
+
+#include <fmt/format.h>
+
+namespace visorder {
+
+SilhouetteLayout::SilhouetteLayout(Integrator integrator, bool perspective)
+{
+    const auto add = [&](std::initializer_list<const char*> names) {
+        for (const char* const name : names)
+            names_[count_++] = name;
+    };
+    add({"tents", "rises", "slopes"});
+    if (integrator == Integrator::exact)
+        add({"medium", "medium_rise", "window"});
+    if (needs_optics(integrator))
+        add({"colour0", "colour1", "colour2", "colour3", "colour4"});
+    if (perspective)
+        add({"ray", "ray_and_scale"});
+    a_corner_ = 1 + static_cast<int>((count_ + 2) / 3);
+}
+
+int SilhouetteLayout::location(std::size_t vector) const
+{
+    const auto rest = static_cast<std::size_t>(a_corner_ - 1);
+    return static_cast<int>(vector / rest) * a_corner_ + 1 + static_cast<int>(vector % rest);
+}
+
+std::string SilhouetteLayout::vertex_shader() const
+{
+    std::string declared = fmt::format("layout(location = 0) in vec4 head;\n"
+                                       "layout(location = {}) in vec4 next_head;\n"
+                                       "flat out vec4 place;\n",
+                                       a_corner_);
+    std::string body = "    gl_Position = vec4(head.xy, 0.0, 1.0);\n"
+                       "    place = vec4(head.zw, next_head.zw);\n";
+    for (std::size_t i = 0; i < count_; ++i) {
+        declared +=
+            fmt::format("layout(location = {0}) in vec4 {1}_given;\nflat out vec4 {1};\n", location(i), names_[i]);
+        body += fmt::format("    {0} = {0}_given;\n", names_[i]);
+    }
+    return declared + "void main()\n{\n" + body + "}\n";
+}
+
+std::string SilhouetteLayout::declarations() const
+{
+    std::string text = "flat in vec4 place;\n";
+    for (const char* const name : names())
+        text += fmt::format("flat in vec4 {};\n", name);
+    return text;
+}
+
+} // namespace visorder
