@@ -102,9 +102,10 @@ vec4 light_of_pass(float one, float run, float len, bool swapped)
 
     float t = len * (medium.x + middle * medium_rise.x);
     float u = 0.5 * len * run * medium_rise.x;
-    float opacity = t * (1.0 + t * (-0.5 + t * (0.166668077 + t * (-0.0416685826 + t * (0.00831463206 +
-                    t * (-0.00133093150 + t * 0.000137367953))))));
     float tt = t * t;
+    // Grouped so that no long chain of operations waits for each other.
+    float opacity = t * ((1.0 - 0.5 * t) + tt * ((0.166668077 - 0.0416685826 * t) +
+                    tt * ((0.00831463206 - 0.00133093150 * t) + tt * 0.000137367953)));
     float even = -0.0833321983 + tt * (-0.00208585873 - tt * 1.74433759e-5);
     float odd = 0.166666691 + tt * (0.00416676258 + tt * 3.64243757e-5) +
                 u * (0.0166643457 + tt * 0.000302037259 +

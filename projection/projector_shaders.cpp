@@ -194,6 +194,10 @@ void main()
 
 // See Thickness and SilhouetteLayout. Along the ray the scalar runs from `one` to `one + run`.
 constexpr const char* silhouette_text = R"(
+#ifdef PERSPECTIVE
+flat in vec3 ray0, ray2; // of the length of rays, squared: constant and linear, quadratic
+#endif
+
 void main()
 {
     vec2 r = gl_FragCoord.xy + 16384.0 - abs(place.xy);
@@ -220,15 +224,15 @@ void main()
     float len = rises.x * thickness;
 #ifdef PERSPECTIVE
     // Back from what is linear on the screen.
-    float one_scale = ray_and_scale.z + dot(slopes.zw, r);
+    float one_scale = 1.0 + dot(slopes.zw, r);
     float rise = rises.y * one_scale - rises.w * one;
     one_scale += rises.w * g;
     float other_scale = one_scale + rises.w * thickness;
     float scale = 1.0 / (one_scale * other_scale);
     one = (one + rises.y * g) * other_scale * scale;
     run = rise * thickness * scale;
-    len *= scale * sqrt(ray.x + (ray.y + ray.w * r.x + ray_and_scale.x * r.y) * r.x +
-                        (ray.z + ray_and_scale.y * r.y) * r.y);
+    vec2 p = gl_FragCoord.xy;
+    len *= scale * sqrt(ray0.x + (ray0.y + ray2.x * p.x + ray2.y * p.y) * p.x + (ray0.z + ray2.z * p.y) * p.y);
 #else
     one += rises.y * g;
 #endif
@@ -348,7 +352,7 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
     const std::string integrate = integrator_shader(integrator);
     switch (projector) {
     case Projector::silhouette: {
-        const SilhouetteLayout layout(integrator, perspective);
+        const SilhouetteLayout layout(integrator);
         const bool passes = integrator == Integrator::exact;
         start += perspective ? "#define PERSPECTIVE\n" : "";
         start += passes ? "#define PASSES\n" : "";

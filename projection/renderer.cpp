@@ -367,6 +367,14 @@ void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
         if (!near)
             program->set("inverse_distance", static_cast<float>(screen.inverse_distance()));
     }
+    if (silhouette && screen.perspective() && !linear) {
+        // (x, y) is gl_FragCoord less the centre.
+        const glm::dvec3 ray = screen.rays() * glm::dvec3(-glm::dvec2(screen.centre()), 1);
+        const glm::dvec3& x = screen.rays()[0];
+        const glm::dvec3& y = screen.rays()[1];
+        triangle_program.set("ray_constant", glm::vec3(glm::dot(ray, ray), 2 * glm::dot(ray, x), 2 * glm::dot(ray, y)));
+        triangle_program.set("ray_quadratic", glm::vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y)));
+    }
     if (options_.projector == Projector::planes)
         triangle_program.set("lattice_steps", static_cast<float>(lattice_.steps));
     near_cell_program_.set("first_depth", screen.perspective() ? 0.0F : -1e30F);

@@ -6,7 +6,7 @@
 
 namespace visorder {
 
-SilhouetteLayout::SilhouetteLayout(Integrator integrator, bool perspective)
+SilhouetteLayout::SilhouetteLayout(Integrator integrator)
 {
     const auto add = [&](std::initializer_list<const char*> names) {
         for (const char* const name : names)
@@ -17,8 +17,6 @@ SilhouetteLayout::SilhouetteLayout(Integrator integrator, bool perspective)
         add({"medium", "medium_rise", "window"});
     if (needs_optics(integrator))
         add({"colour0", "colour1", "colour2", "colour3", "colour4"});
-    if (perspective)
-        add({"ray", "ray_and_scale"});
     a_corner_ = 1 + static_cast<int>((count_ + 2) / 3);
 }
 
@@ -41,7 +39,19 @@ std::string SilhouetteLayout::vertex_shader() const
             fmt::format("layout(location = {0}) in vec4 {1}_given;\nflat out vec4 {1};\n", location(i), names_[i]);
         body += fmt::format("    {0} = {0}_given;\n", names_[i]);
     }
-    return declared + "void main()\n{\n" + body + "}\n";
+    const char* const view = R"(
+#ifdef PERSPECTIVE
+uniform vec3 ray_constant, ray_quadratic; // of the length of rays, squared, over gl_FragCoord
+flat out vec3 ray0, ray2;
+#endif
+)";
+    const char* const hand_on_view = R"(
+#ifdef PERSPECTIVE
+    ray0 = ray_constant;
+    ray2 = ray_quadratic;
+#endif
+)";
+    return declared + view + "void main()\n{\n" + body + hand_on_view + "}\n";
 }
 
 std::string SilhouetteLayout::declarations() const

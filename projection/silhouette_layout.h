@@ -19,7 +19,7 @@ namespace visorder {
 /// renderers gather whatever is not an attribute or an interpolated value lane by lane, uniforms included.)
 class SilhouetteLayout {
 public:
-    SilhouetteLayout(Integrator integrator, bool perspective);
+    explicit SilhouetteLayout(Integrator integrator);
 
     std::size_t triangle_bytes() const { return 3 * static_cast<std::size_t>(a_corner_) * sizeof(glm::vec4); }
     int vertex_attributes() const { return 3 * a_corner_; }
@@ -49,7 +49,7 @@ public:
         }
     }
 
-    static constexpr std::size_t most_vectors = 10;
+    static constexpr std::size_t most_vectors = 8;
 
 private:
     int location(std::size_t vector) const;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <limits>
 #include <optional>
 
 namespace visorder {
@@ -63,11 +63,22 @@ std::optional<std::array<glm::vec2, 3>> triangle_around(const std::array<glm::iv
                                     glm::vec2(origin + v[(best + 3) % 4] * pixels_a_step)};
 }
 
+double longest_ray(const Screen& screen)
+{
+    const glm::dvec2 low = -glm::dvec2(screen.centre());
+    const glm::dvec2 high = low + glm::dvec2(screen.size());
+    double longest = 0;
+    for (const glm::dvec2 corner : {low, high, glm::dvec2(low.x, high.y), glm::dvec2(high.x, low.y)})
+        longest = std::max(longest, glm::length(screen.rays() * glm::dvec3(corner, 1)));
+    return longest;
+}
+
 // What is written beside a Thickness.
 struct Range {
     float lowest = 0, highest = 0; // scalar
     float reference = 0;           // what the scalars are relative to
     double longest = 0;            // depth, of a way through the cell
+    double least_scale = 1;        // of 1 - depth / D
 };
 
 } // namespace
@@ -96,28 +107,24 @@ struct SilhouetteTriangles::Writer {
         const glm::dvec2 origin = glm::dvec2(at[0]) * triangles.pixels_a_step_;
         const glm::vec2 place = glm::vec2(origin + glm::dvec2(triangles.from_.screen->centre())) + place_offset;
         const double inverse = triangles.inverse_distance_;
-        const double depth_rise = static_cast<double>(t.swapped ? -t.depth_rise : t.depth_rise);
-        const glm::dmat3& squared = triangles.ray_squared_;
+        // All that is linear on the screen relative to what 1 - depth / D is at the origin.
+        const double scale = 1 / (1 - static_cast<double>(t.depth_base) * inverse);
+        const double depth_rise = static_cast<double>(t.swapped ? -t.depth_rise : t.depth_rise) * scale * scale;
         // Parallel rays are all of one length.
-        const double a_depth = triangles.perspective_ ? 1 : std::sqrt(squared[2][2]);
+        const double a_depth = triangles.perspective_ ? 1 : triangles.longest_ray_;
         std::array<glm::vec4, SilhouetteLayout::most_vectors> vectors;
         std::size_t size = 0;
         vectors[size++] = {t.k1, t.k2};
-        vectors[size++] = {static_cast<float>(a_depth * depth_rise), t.scalar_rise, t.scalar_base,
-                           static_cast<float>(-static_cast<double>(t.depth_rise) * inverse)};
-        vectors[size++] = {t.scalar_slope, glm::vec2(-glm::dvec2(t.depth_slope) * inverse)};
+        vectors[size++] = glm::dvec4(a_depth * depth_rise, scale * t.scalar_rise, scale * t.scalar_base,
+                                     -scale * inverse * t.depth_rise);
+        vectors[size++] = {glm::vec2(scale * glm::dvec2(t.scalar_slope)),
+                           glm::vec2(-scale * inverse * glm::dvec2(t.depth_slope))};
         const std::size_t medium = size;
         if (triangles.from_.pieces != nullptr)
             size += 3;
         if (!triangles.from_.optics.empty())
             for (const glm::vec4& colour : colours)
                 vectors[size++] = colour;
-        const glm::dvec3 ray_place(origin, 1);
-        if (triangles.perspective_) {
-            const glm::dvec3 slope = 2.0 * (squared * ray_place);
-            vectors[size++] = {glm::dot(ray_place, squared * ray_place), slope.x, slope.y, squared[0][0]};
-            vectors[size++] = {2 * squared[0][1], squared[1][1], 1 - static_cast<double>(t.depth_base) * inverse, 0};
-        }
         const glm::vec4 head(t.kind == SilhouetteClass::quad ? -place.x : place.x, t.swapped ? -place.y : place.y,
                              t.k3);
         const auto write = [&] {
@@ -142,34 +149,26 @@ struct SilhouetteTriangles::Writer {
 
     CellWays ways_of(const Thickness& t, std::span<const glm::ivec2> at, const Range& range) const
     {
-        CellWays ways{range.lowest,      range.highest,     range.reference, range.longest,
-                      t.scalar_rise > 0, t.scalar_rise < 0, t.swapped};
-        if (!triangles.perspective_) {
-            ways.longest *= std::sqrt(triangles.ray_squared_[2][2]);
+        CellWays ways{
+            range.lowest,      range.highest,
+            range.reference,   range.longest * triangles.longest_ray_ / (range.least_scale * range.least_scale),
+            t.scalar_rise > 0, t.scalar_rise < 0,
+            t.swapped};
+        if (!triangles.perspective_ || triangles.from_.pieces->at(range.lowest).end >= range.highest)
             return ways;
-        }
-        // Distance over depth is most at a corner. Along a ray the scalar rises as a function does that is linear on
-        // the screen.
+        // Along a ray the scalar rises as a function does that is linear on the screen.
         const double inverse = triangles.inverse_distance_;
-        const double base_scale = 1 - static_cast<double>(t.depth_base) * inverse;
-        const glm::dvec2 scale_slope = -inverse * glm::dvec2(t.depth_slope);
-        double least_scale = 1e300;
-        double longest_ray = 0;
-        double least_rise = 1e300;
-        double most_rise = -1e300;
+        double least_rise = std::numeric_limits<double>::infinity();
+        double most_rise = -least_rise;
         for (const glm::ivec2& point : at) {
             const glm::dvec2 r = glm::dvec2(point - at[0]) * triangles.pixels_a_step_;
-            const glm::dvec3 place(glm::dvec2(point) * triangles.pixels_a_step_, 1);
-            const double scale = base_scale + glm::dot(scale_slope, r);
+            const double depth = static_cast<double>(t.depth_base) + glm::dot(glm::dvec2(t.depth_slope), r);
             const double scalar = static_cast<double>(t.scalar_base) + glm::dot(glm::dvec2(t.scalar_slope), r);
-            const double rise =
-                static_cast<double>(t.scalar_rise) * scale + static_cast<double>(t.depth_rise) * inverse * scalar;
+            const double rise = static_cast<double>(t.scalar_rise) * (1 - depth * inverse) +
+                                static_cast<double>(t.depth_rise) * inverse * scalar;
             least_rise = std::min(least_rise, rise);
             most_rise = std::max(most_rise, rise);
-            least_scale = std::min({least_scale, scale, scale - static_cast<double>(t.depth_rise) * inverse});
-            longest_ray = std::max(longest_ray, glm::dot(place, triangles.ray_squared_ * place));
         }
-        ways.longest *= std::sqrt(longest_ray) / (least_scale * least_scale);
         // Where rounding may decide, both.
         const double doubt = 1e-5 * (std::abs(least_rise) + std::abs(most_rise));
         ways.rises = most_rise > -doubt;
@@ -187,8 +186,9 @@ struct SilhouetteTriangles::Writer {
             const float scalar = points.exact[cell.points[i]].w;
             range.lowest = std::min(range.lowest, scalar);
             range.highest = std::max(range.highest, scalar);
-            values.scalar[i] = (static_cast<double>(scalar) - static_cast<double>(range.reference)) *
-                               (1 - values.depth[i] * triangles.inverse_distance_);
+            const double scale = 1 - values.depth[i] * triangles.inverse_distance_;
+            values.scalar[i] = (static_cast<double>(scalar) - static_cast<double>(range.reference)) * scale;
+            range.least_scale = i == 0 ? scale : std::min(range.least_scale, scale);
         }
         return range;
     }
@@ -247,7 +247,9 @@ struct SilhouetteTriangles::Writer {
             for (std::size_t i = 0; i < 3; ++i) {
                 range.lowest = std::min(range.lowest, points.exact[slab.face[i]].w);
                 range.highest = std::max(range.highest, points.exact[slab.face[i]].w);
-                scalar[i] -= static_cast<double>(range.reference) * (1 - slab.depth[i] * triangles.inverse_distance_);
+                const double scale = 1 - slab.depth[i] * triangles.inverse_distance_;
+                scalar[i] -= static_cast<double>(range.reference) * scale;
+                range.least_scale = i == 0 ? scale : std::min(range.least_scale, scale);
                 range.longest = std::max(range.longest, std::abs(slab.missing[i]));
             }
         }
@@ -279,11 +281,11 @@ struct SilhouetteTriangles::Writer {
 
 SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources, Integrator integrator)
     : from_(sources),
-      layout_(integrator, sources.screen->perspective()),
+      layout_(integrator),
       perspective_(sources.screen->perspective()),
       pixels_a_step_(1.0 / sources.lattice.steps),
       inverse_distance_(sources.screen->inverse_distance()),
-      ray_squared_(glm::transpose(sources.screen->rays()) * sources.screen->rays())
+      longest_ray_(longest_ray(*sources.screen))
 {
 }
 

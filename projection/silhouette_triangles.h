@@ -3,8 +3,6 @@
 #include "projection/boundary_slab.h"
 #include "projection/silhouette_layout.h"
 
-#include <glm/mat3x3.hpp>
-
 namespace visorder {
 
 /// The triangles of Projector::silhouette: of each half of a cell's silhouette the cell's Thickness, as the shader
@@ -30,7 +28,7 @@ private:
     bool perspective_;
     double pixels_a_step_;
     double inverse_distance_;
-    glm::dmat3 ray_squared_; // length^2 of Screen::rays as a quadratic form
+    double longest_ray_; // distance over depth, where it is most in the image
 };
 
 } // namespace visorder
