@@ -12,7 +12,10 @@ SilhouetteLayout::SilhouetteLayout(Integrator integrator)
         for (const char* const name : names)
             names_[count_++] = name;
     };
-    add({"tents", "rises", "slopes"});
+    add({"tents"});
+    // Opacities that are interpolated hold lengths and scalars already.
+    if (integrator != Integrator::linear)
+        add({"rises", "slopes"});
     if (integrator == Integrator::exact)
         add({"medium", "medium_rise", "window"});
     if (needs_optics(integrator))
@@ -40,13 +43,13 @@ std::string SilhouetteLayout::vertex_shader() const
         body += fmt::format("    {0} = {0}_given;\n", names_[i]);
     }
     const char* const view = R"(
-#ifdef PERSPECTIVE
+#if defined PERSPECTIVE && !defined LINEAR
 uniform vec3 ray_constant, ray_quadratic; // of the length of rays, squared, over gl_FragCoord
 flat out vec3 ray0, ray2;
 #endif
 )";
     const char* const hand_on_view = R"(
-#ifdef PERSPECTIVE
+#if defined PERSPECTIVE && !defined LINEAR
     ray0 = ray_constant;
     ray2 = ray_quadratic;
 #endif

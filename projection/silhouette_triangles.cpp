@@ -115,10 +115,12 @@ struct SilhouetteTriangles::Writer {
         std::array<glm::vec4, SilhouetteLayout::most_vectors> vectors;
         std::size_t size = 0;
         vectors[size++] = {t.k1, t.k2};
-        vectors[size++] = glm::dvec4(a_depth * depth_rise, scale * t.scalar_rise, scale * t.scalar_base,
-                                     -scale * inverse * t.depth_rise);
-        vectors[size++] = {glm::vec2(scale * glm::dvec2(t.scalar_slope)),
-                           glm::vec2(-scale * inverse * glm::dvec2(t.depth_slope))};
+        if (!triangles.from_.opacity_at_thickest) {
+            vectors[size++] = glm::dvec4(a_depth * depth_rise, scale * t.scalar_rise, scale * t.scalar_base,
+                                         -scale * inverse * t.depth_rise);
+            vectors[size++] = {glm::vec2(scale * glm::dvec2(t.scalar_slope)),
+                               glm::vec2(-scale * inverse * glm::dvec2(t.depth_slope))};
+        }
         const std::size_t medium = size;
         if (triangles.from_.pieces != nullptr)
             size += 3;
