@@ -6,7 +6,7 @@ std::size_t PlaneTriangles::make(std::span<const CellId> cells, LargeArray<std::
                                  std::vector<CellOffLattice>& off_lattice) const
 {
     constexpr std::size_t most_a_cell = 2;
-    into.resize(cells.size() * most_a_cell * triangle_bytes());
+    into.resize(cells.size() * most_a_cell * record_bytes());
     auto* const first = reinterpret_cast<PlaneRecord*>(into.data());
     PlaneRecord* next = first;
     const auto put = [&](const VisibleCell& cell, std::uint32_t kind) {

@@ -27,7 +27,7 @@ class PlaneTriangles final : public CellTriangles {
 public:
     explicit PlaneTriangles(const VisibleCells& cells) : cells_(cells) {}
 
-    std::size_t triangle_bytes() const override { return sizeof(PlaneRecord); }
+    std::size_t record_bytes() const override { return sizeof(PlaneRecord); }
     int vertex_attributes() const override { return 0; }
     std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellOffLattice>& off_lattice) const override;

@@ -273,6 +273,154 @@ void main()
 }
 )";
 
+// As silhouette_of, thick_point and BoundarySlab have it, in doubles: products of lattice coordinates are exact in
+// them. A triangle that a cell does not have is a point.
+constexpr const char* thick_gpu_vertex_text = R"(
+layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 1) readonly buffer Records { uvec4 records[]; };
+uniform float lattice_steps;
+uniform float half_range;
+
+noperspective out vec2 front, back; // depth, and scalar times 1 - depth / D
+#ifdef OPTICS
+noperspective out vec4 optics;
+#endif
+
+dvec2 at[4];
+dvec2 values[4]; // depth, and scalar times 1 - depth / D
+
+double area(dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; }
+
+void put(dvec2 place, dvec2 before, dvec2 behind)
+{
+    gl_Position = vec4(vec2(place) / (lattice_steps * half_range), 0.0, 1.0);
+    front = vec2(before);
+    back = vec2(behind);
+}
+
+void put_slab(uvec4 record, int corner, bool entry)
+{
+    dvec2 exact[3];
+    for (int i = 0; i < 3; ++i)
+        exact[i] = dvec2(points[record[i]].xy);
+    dvec2 b = exact[1] - exact[0], c = exact[2] - exact[0];
+    double b_rise = values[1].x - values[0].x, c_rise = values[2].x - values[0].x;
+    dvec2 slope = (b_rise * dvec2(c.y, -c.x) - c_rise * dvec2(b.y, -b.x)) / area(b, c);
+    corner = min(corner, 2);
+    double depth = values[corner].x + dot(slope, at[corner] / double(lattice_steps) - exact[corner]);
+    dvec2 moved = dvec2(depth, values[corner].y * (1.0 - depth * inverse_distance) /
+                                   (1.0 - values[corner].x * inverse_distance));
+    put(at[corner], entry ? moved : values[corner], entry ? values[corner] : moved);
+}
+
+void main()
+{
+    uvec4 record = records[gl_VertexID / 12];
+    int corner = gl_VertexID % 12;
+    uint kind = record.x >> 30;
+    record.x &= 0x3fffffffu;
+    vec4 optics_of[4];
+    for (int i = 0; i < 4; ++i) {
+        vec4 point = points[record[i]];
+        at[i] = dvec2(roundEven(point.xy * lattice_steps));
+        values[i] = dvec2(point.z, point.w * (1.0 - double(point.z) * inverse_distance));
+#ifdef OPTICS
+        optics_of[i] = optics_at(point.w);
+#endif
+    }
+    // The first is where the thickest point may be, or one of the nearer edge; then see VisibleCell.
+    ivec4 order = ivec4(0);
+    bool quad = false, behind = false, none = false;
+    {
+        double share[4] = {area(at[2] - at[1], at[3] - at[1]), -area(at[2] - at[0], at[3] - at[0]),
+                           area(at[1] - at[0], at[3] - at[0]), -area(at[1] - at[0], at[2] - at[0])};
+        int positive = 0, negative = 0;
+        for (int i = 0; i < 4; ++i) {
+            positive |= share[i] > 0.0 ? 1 << i : 0;
+            negative |= share[i] < 0.0 ? 1 << i : 0;
+        }
+        int positives = bitCount(positive), negatives = bitCount(negative);
+        quad = positives == 2 && negatives == 2;
+        none = !quad && positives != 1 && negatives != 1;
+        int first = quad || positives == 1 ? positive : negative;
+        behind = (first == positive) != (kind == 1u);
+        // The nearer edge of a quad comes first.
+        first = quad && behind ? negative : first;
+        int next = 0;
+        for (int i = 0; i < 4; ++i)
+            if ((first >> i & 1) != 0)
+                order[next++] = i;
+        for (int i = 0; i < 4; ++i)
+            if ((first >> i & 1) == 0 && next < 4)
+                order[next++] = i;
+    }
+    int triangle = corner / 3;
+    int k = corner % 3;
+    if (kind >= 2u) {
+        put_slab(record, corner, kind == 2u);
+#ifdef OPTICS
+        optics = optics_of[min(corner, 2)];
+#endif
+    } else if (none || (!quad && triangle == 3)) {
+        put(at[0], values[0], values[0]);
+#ifdef OPTICS
+        optics = vec4(0.0);
+#endif
+    } else if (k > 0) {
+        int i = quad ? (k == 1 ? order[triangle >> 1] : order[2 + (triangle & 1)])
+                     : order[1 + (triangle + k - 1) % 3];
+        put(at[i], values[i], values[i]);
+#ifdef OPTICS
+        optics = optics_of[i];
+#endif
+    } else {
+        int a = order[0], b = order[1], c = order[2], d = order[3];
+        dvec2 second = at[b] - at[a], third = at[c] - at[a], fourth = at[d] - at[a];
+        dvec2 place = at[a];
+        dvec2 before, after;
+        double by_b, by_c, by_d;
+        if (quad) {
+            dvec2 farther = fourth - third;
+            double whole = area(second, farther);
+            by_b = area(third, farther) / whole;
+            by_d = area(third, second) / whole;
+            by_c = 1.0 - by_d;
+            place += by_b * second;
+            before = mix(values[a], values[b], by_b);
+            after = mix(values[c], values[d], by_d);
+        } else {
+            by_b = area(third, fourth);
+            by_c = area(fourth, second);
+            by_d = area(second, third);
+            double whole = by_b + by_c + by_d;
+            by_b /= whole;
+            by_c /= whole;
+            by_d /= whole;
+            dvec2 face = by_b * values[b] + by_c * values[c] + by_d * values[d];
+            before = behind ? face : values[a];
+            after = behind ? values[a] : face;
+        }
+        put(place, before, after);
+#ifdef OPTICS
+        vec4 far = float(by_c) * optics_of[c] + float(by_d) * optics_of[d];
+        optics = 0.5 * (quad ? mix(optics_of[a], optics_of[b], float(by_b)) + far
+                             : optics_of[a] + float(by_b) * optics_of[b] + far);
+#ifdef LINEAR
+        vec2 pixel = vec2(place) / lattice_steps;
+        double len = (after.x - before.x) /
+                     ((1.0 - before.x * inverse_distance) * (1.0 - after.x * inverse_distance)) *
+                     length(pixel.x * ray_x + pixel.y * ray_y + ray_1);
+        optics.w = 1.0 - exp(-optics.w * float(len));
+#endif
+#endif
+    }
+#ifdef LINEAR
+    optics.w = k > 0 ? 0.0 : optics.w;
+#endif
+    hand_on_view();
+}
+)";
+
 constexpr const char* thick_text = R"(
 noperspective in vec2 front, back;
 #ifdef OPTICS
@@ -361,6 +509,9 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
     }
     case Projector::thick:
         return {start + view_vertex_text + thick_vertex_text, start + result_text + view_text + integrate + thick_text};
+    case Projector::thick_gpu:
+        return {start + view_vertex_text + (needs_optics(integrator) ? optics_shader() : "") + thick_gpu_vertex_text,
+                start + result_text + view_text + integrate + thick_text};
     case Projector::planes:
         return {start + view_vertex_text + (needs_optics(integrator) ? optics_shader() : "") + planes_vertex_text,
                 start + result_text + view_text + integrate + planes_text};

@@ -4,6 +4,7 @@
 #include "projection/near_cell.h"
 #include "projection/plane_triangles.h"
 #include "projection/projector_shaders.h"
+#include "projection/shader_thick_triangles.h"
 #include "projection/silhouette_triangles.h"
 #include "projection/thick_triangles.h"
 #include "scene/error.h"
@@ -27,7 +28,7 @@ namespace {
 constexpr std::size_t stretch_cells = 16384;
 constexpr std::size_t block_cells = 1024;
 constexpr std::size_t ring_segments = 3;
-constexpr std::size_t ring_segment_bytes = std::size_t{4} << 20;
+constexpr std::size_t ring_segment_bytes = std::size_t{1} << 20;
 
 constexpr GLuint points_binding = 0;
 constexpr GLuint triangles_binding = 1;
@@ -142,6 +143,8 @@ std::unique_ptr<const CellTriangles> make_triangles(const RenderOptions& options
         return std::make_unique<SilhouetteTriangles>(sources, options.integrator);
     if (options.projector == Projector::thick)
         return std::make_unique<ThickTriangles>(sources);
+    if (options.projector == Projector::thick_gpu)
+        return std::make_unique<ShaderThickTriangles>(sources);
     return std::make_unique<PlaneTriangles>(*sources.cells);
 }
 
@@ -156,7 +159,7 @@ UploadRing make_ring(const Context& context)
 /// What one part of the order becomes. Blocks are made by threads of their own, each into its place.
 struct ProjectionRenderer::Stretch {
     struct Block {
-        LargeArray<std::byte> triangles;
+        LargeArray<std::byte> records;
         std::size_t count = 0;
         std::vector<CellOffLattice> off_lattice;
     };
@@ -208,7 +211,8 @@ void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
     const ScalarRange range = scalar_range(scene_->mesh());
     pieces_ = optical_pieces(function, range.lowest, range.range);
     function_.set(pieces_);
-    if (!needs_optics(options_.integrator) || options_.projector == Projector::planes)
+    if (!needs_optics(options_.integrator) || options_.projector == Projector::planes ||
+        options_.projector == Projector::thick_gpu)
         return;
     const auto& scalars = scene_->mesh().scalars;
     optics_.resize(scalars.size());
@@ -237,8 +241,7 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
             stretch.cells[i] = inner_cells_[cell];
         }
         block.off_lattice.clear();
-        block.count =
-            triangles.make(std::span(stretch.cells).subspan(begin, count), block.triangles, block.off_lattice);
+        block.count = triangles.make(std::span(stretch.cells).subspan(begin, count), block.records, block.off_lattice);
     });
     stretch.seconds = watch.lap();
 }
@@ -256,12 +259,13 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
                                const Program& program)
 {
     const GlFunctions& gl = context_->gl();
-    const std::size_t triangle_bytes = triangles.triangle_bytes();
-    const std::size_t most = ring_.segment_bytes() / triangle_bytes;
+    const std::size_t record_bytes = triangles.record_bytes();
+    const std::size_t vertices = 3 * triangles.triangles_a_record();
+    const std::size_t most = ring_.segment_bytes() / record_bytes;
     std::size_t b = 0;
-    std::size_t first = 0; // triangle of the block
+    std::size_t first = 0; // record of the block
     while (b < stretch.blocks.size()) {
-        // As many triangles as a segment holds.
+        // As many records as a segment holds.
         std::byte* into = ring_.next();
         std::size_t written = 0;
         std::vector<CellOffLattice> off_lattice;
@@ -270,18 +274,18 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
             const std::size_t count = std::min(block.count - first, most - written);
             const bool all = first + count == block.count;
             for (const CellOffLattice& cell : block.off_lattice)
-                if (cell.triangles_before >= first && (cell.triangles_before < first + count || all))
+                if (cell.records_before >= first && (cell.records_before < first + count || all))
                     off_lattice.push_back(
-                        {static_cast<std::uint32_t>(cell.triangles_before - first + written), cell.cell});
-            std::copy_n(block.triangles.data() + first * triangle_bytes, count * triangle_bytes,
-                        into + written * triangle_bytes);
+                        {static_cast<std::uint32_t>(cell.records_before - first + written), cell.cell});
+            std::copy_n(block.records.data() + first * record_bytes, count * record_bytes,
+                        into + written * record_bytes);
             written += count;
             first = all ? 0 : first + count;
             b += all ? 1 : 0;
         }
         const bool attributes = triangles.vertex_attributes() > 0;
         if (attributes)
-            ring_.bind_vertices(attributes_.id(), triangle_bytes / 3);
+            ring_.bind_vertices(attributes_.id(), record_bytes / 3);
         else
             ring_.bind(triangles_binding);
         std::size_t drawn = 0;
@@ -290,16 +294,17 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
                 return;
             program.use();
             gl.BindVertexArray(attributes ? attributes_.id() : no_attributes_.id());
-            gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
+            gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(vertices * drawn),
+                          static_cast<GLsizei>(vertices * (end - drawn)));
             drawn = end;
         };
         for (const CellOffLattice& cell : off_lattice) {
-            draw_up_to(cell.triangles_before);
+            draw_up_to(cell.records_before);
             draw_near_cell(screen, cell.cell);
         }
         draw_up_to(written);
         ring_.issued();
-        statistics_.triangles += written;
+        statistics_.triangles += written * triangles.triangles_a_record();
     }
     statistics_.prepare_s += stretch.seconds;
 }
@@ -352,15 +357,17 @@ void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
 
     const glm::mat3 rays(screen.rays());
     const bool silhouette = options_.projector == Projector::silhouette;
+    const bool in_shader = options_.projector == Projector::thick_gpu;
     const bool linear = options_.integrator == Integrator::linear;
     for (Program* program : {&triangle_program, &near_cell_program_}) {
         const bool near = program == &near_cell_program_;
         if (near || !silhouette)
             program->set("half_range", static_cast<float>(lattice_.half_range));
         // Triangles of the silhouette bring all with them; opacities that are interpolated hold the lengths already.
-        if (!near && (silhouette || linear))
+        if (!near && (silhouette || (linear && !in_shader)))
             continue;
-        program->set("centre", glm::vec2(screen.centre()));
+        if (near || !linear)
+            program->set("centre", glm::vec2(screen.centre()));
         program->set("ray_x", rays[0]);
         program->set("ray_y", rays[1]);
         program->set("ray_1", rays[2]);
@@ -375,13 +382,13 @@ void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
         triangle_program.set("ray_constant", glm::vec3(glm::dot(ray, ray), 2 * glm::dot(ray, x), 2 * glm::dot(ray, y)));
         triangle_program.set("ray_quadratic", glm::vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y)));
     }
-    if (options_.projector == Projector::planes)
+    if (options_.projector == Projector::planes || in_shader)
         triangle_program.set("lattice_steps", static_cast<float>(lattice_.steps));
     near_cell_program_.set("first_depth", screen.perspective() ? 0.0F : -1e30F);
     const bool exact = options_.integrator == Integrator::exact;
     const bool optics = needs_optics(options_.integrator);
     function_.introduce(triangle_program,
-                        (exact && !silhouette) || (optics && options_.projector == Projector::planes));
+                        (exact && !silhouette) || (optics && (options_.projector == Projector::planes || in_shader)));
     function_.introduce(near_cell_program_, exact || optics);
     function_.bind();
 }

@@ -93,7 +93,7 @@ struct SilhouetteTriangles::Writer {
 
     std::byte* next()
     {
-        const std::size_t bytes = triangles.triangle_bytes();
+        const std::size_t bytes = triangles.record_bytes();
         if (into.size() < (count + 1) * bytes)
             into.resize(2 * (count + 1) * bytes);
         return into.data() + count++ * bytes;
@@ -294,7 +294,7 @@ SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources, Integra
 std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                                       std::vector<CellOffLattice>& off_lattice) const
 {
-    into.resize(cells.size() * triangle_bytes());
+    into.resize(cells.size() * record_bytes());
     return put_cells_with_slabs(from_, cells, Writer{*this, into}, off_lattice);
 }
 

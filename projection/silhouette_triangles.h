@@ -15,7 +15,7 @@ class SilhouetteTriangles final : public CellTriangles {
 public:
     SilhouetteTriangles(const TriangleSources& sources, Integrator integrator);
 
-    std::size_t triangle_bytes() const override { return layout_.triangle_bytes(); }
+    std::size_t record_bytes() const override { return layout_.triangle_bytes(); }
     int vertex_attributes() const override { return layout_.vertex_attributes(); }
     std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellOffLattice>& off_lattice) const override;

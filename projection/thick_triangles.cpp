@@ -81,7 +81,7 @@ struct ThickTriangles::Writer {
     }
 };
 
-std::size_t ThickTriangles::triangle_bytes() const
+std::size_t ThickTriangles::record_bytes() const
 {
     return 3 * (plain_bytes + (from_.optics.empty() ? 0 : optics_bytes));
 }
@@ -90,7 +90,7 @@ std::size_t ThickTriangles::make(std::span<const CellId> cells, LargeArray<std::
                                  std::vector<CellOffLattice>& off_lattice) const
 {
     constexpr std::size_t most_a_cell = 8;
-    into.resize(cells.size() * most_a_cell * triangle_bytes());
+    into.resize(cells.size() * most_a_cell * record_bytes());
     return put_cells_with_slabs(from_, cells, Writer{from_, into.data()}, off_lattice);
 }
 

@@ -10,7 +10,7 @@ class ThickTriangles final : public CellTriangles {
 public:
     explicit ThickTriangles(const TriangleSources& sources) : from_(sources) {}
 
-    std::size_t triangle_bytes() const override;
+    std::size_t record_bytes() const override;
     int vertex_attributes() const override { return from_.optics.empty() ? 2 : 3; }
     std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellOffLattice>& off_lattice) const override;

@@ -42,6 +42,11 @@ public:
     template <class Visible, class OffLattice>
     void visit(std::span<const CellId> cells, Visible&& visible, OffLattice&& off_lattice) const;
 
+    /// The same without a closer look: calls `seen(cell, its four points, where they are in lattice steps)` for cells
+    /// whose extent holds the centre of a pixel.
+    template <class Seen, class OffLattice>
+    void visit_candidates(std::span<const CellId> cells, Seen&& seen, OffLattice&& off_lattice) const;
+
     const ScreenPoints& points() const { return points_; }
     /// Whether a cell's vertices stand, as seen, in the reverse of VTK's order.
     bool turned(CellId cell) const { return (turned_[cell] != 0) != mirrored_; }
@@ -62,6 +67,20 @@ private:
 template <class Visible, class OffLattice>
 void VisibleCells::visit(std::span<const CellId> cells, Visible&& visible, OffLattice&& off_lattice) const
 {
+    visit_candidates(
+        cells,
+        [&](CellId cell, const std::uint32_t* v, const std::array<glm::ivec2, 4>& at) {
+            VisibleCell seen{};
+            seen.cell = cell;
+            if (complete(seen, silhouette_of(at), v, at))
+                visible(seen);
+        },
+        off_lattice);
+}
+
+template <class Seen, class OffLattice>
+void VisibleCells::visit_candidates(std::span<const CellId> cells, Seen&& seen, OffLattice&& off_lattice) const
+{
     const int mask = (1 << shift_) - 1;
     for (const CellId cell : cells) {
         const std::uint32_t* v = vertices_.data() + std::size_t{cell} * 4;
@@ -80,10 +99,7 @@ void VisibleCells::visit(std::span<const CellId> cells, Visible&& visible, OffLa
         // Between the lowest and the highest there must be the centre of a pixel.
         if ((low.x + mask) >> shift_ > high.x >> shift_ || (low.y + mask) >> shift_ > high.y >> shift_)
             continue;
-        VisibleCell seen{};
-        seen.cell = cell;
-        if (complete(seen, silhouette_of(at), v, at))
-            visible(seen);
+        seen(cell, v, at);
     }
 }
 

@@ -63,6 +63,11 @@ RenderOptions with(Projector projector, Integrator integrator)
     return options;
 }
 
+bool is_thick(Projector projector)
+{
+    return projector == Projector::thick || projector == Projector::thick_gpu;
+}
+
 std::string reproduce(const char* scene, const NamedView& view, const RenderOptions& options)
 {
     return std::string(scene) + " seen from " + view.name + " by " + name(options.projector) + " and " +
@@ -168,10 +173,10 @@ TEST(Renderer, HasNoCracksAndNoDoubleHits)
                         beyond += difference > 1e-4 ? 1 : 0;
                         // Where the rasteriser attributes a pixel to the wrong side of a crease, Projector::thick
                         // prolongs a face, by as much as the face is steep.
-                        EXPECT_LT(difference, projector == Projector::thick ? 2e-2 : 2e-3) << x << ", " << y;
+                        EXPECT_LT(difference, is_thick(projector) ? 2e-2 : 2e-3) << x << ", " << y;
                     }
             }
-            EXPECT_LE(beyond, projector == Projector::thick ? pixels / 50 : pixels / 500);
+            EXPECT_LE(beyond, is_thick(projector) ? pixels / 50 : pixels / 500);
         }
 }
 
@@ -192,8 +197,8 @@ TEST(Renderer, ExactIntegrationMatchesTheRayCaster)
                     const Image image = renderer.draw(view.view, order_for(scene, view.view));
                     const RayCast cast = truth(scene, function, view.view);
                     const ImageErrors errors = image_errors(image, image_of(cast), cast.near_silhouette);
-                    EXPECT_LT(errors.root_mean_square, projector == Projector::thick ? 1e-3 : 2e-4);
-                    EXPECT_LT(errors.largest, projector == Projector::thick ? 3e-2 : 1e-2);
+                    EXPECT_LT(errors.root_mean_square, is_thick(projector) ? 1e-3 : 2e-4);
+                    EXPECT_LT(errors.largest, is_thick(projector) ? 3e-2 : 1e-2);
                 }
             }
 }
@@ -219,6 +224,29 @@ TEST(Renderer, IntegratorsComeNearerToTheRayCasterOneByOne)
                 const double error = image_errors(image, image_of(cast), cast.near_silhouette).root_mean_square;
                 EXPECT_LT(error, before);
                 before = error;
+            }
+        }
+}
+
+TEST(Renderer, DecomposesCellsInTheShaderAsOnTheProcessor)
+{
+    constexpr glm::ivec2 size(64);
+    for (const char* scene_name : {"carved:700", "slivers:400", "grid:400"})
+        for (const Integrator integrator : {Integrator::linear, Integrator::exponential, Integrator::exact}) {
+            const Scene& scene = scene_of(scene_name);
+            const TransferFunction function = function_for(scene, "rainbow");
+            ProjectionRenderer on_processor(context(), scene, function, with(Projector::thick, integrator));
+            const RenderOptions options = with(Projector::thick_gpu, integrator);
+            ProjectionRenderer in_shader(context(), scene, function, options);
+            std::vector<NamedView> views = random_views(scene, 2, 13, size);
+            views.push_back({"inside", inside(scene, 100, size)});
+            for (const NamedView& view : views) {
+                SCOPED_TRACE(reproduce(scene_name, view, options));
+                const Order order = order_for(scene, view.view);
+                const ImageErrors errors =
+                    image_errors(in_shader.draw(view.view, order), on_processor.draw(view.view, order));
+                EXPECT_LT(errors.root_mean_square, 1e-5);
+                EXPECT_LT(errors.largest, 1e-3);
             }
         }
 }
