@@ -48,6 +48,7 @@ namespace visorder {
     X(PFNGLDRAWARRAYSPROC, DrawArrays) \
     X(PFNGLDRAWELEMENTSPROC, DrawElements) \
     X(PFNGLENABLEPROC, Enable) \
+    X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib) \
     X(PFNGLENDQUERYPROC, EndQuery) \
     X(PFNGLFENCESYNCPROC, FenceSync) \
     X(PFNGLFINISHPROC, Finish) \
@@ -85,6 +86,7 @@ namespace visorder {
     X(PFNGLPROGRAMUNIFORM3FVPROC, ProgramUniform3fv) \
     X(PFNGLPROGRAMUNIFORM4FVPROC, ProgramUniform4fv) \
     X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv) \
+    X(PFNGLPROVOKINGVERTEXPROC, ProvokingVertex) \
     X(PFNGLREADPIXELSPROC, ReadPixels) \
     X(PFNGLSCISSORPROC, Scissor) \
     X(PFNGLSHADERSOURCEPROC, ShaderSource) \
@@ -98,7 +100,10 @@ namespace visorder {
     X(PFNGLTEXTURESUBIMAGE2DPROC, TextureSubImage2D) \
     X(PFNGLTEXTURESUBIMAGE3DPROC, TextureSubImage3D) \
     X(PFNGLUSEPROGRAMPROC, UseProgram) \
+    X(PFNGLVERTEXARRAYATTRIBBINDINGPROC, VertexArrayAttribBinding) \
+    X(PFNGLVERTEXARRAYATTRIBFORMATPROC, VertexArrayAttribFormat) \
     X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer) \
+    X(PFNGLVERTEXARRAYVERTEXBUFFERPROC, VertexArrayVertexBuffer) \
     X(PFNGLVIEWPORTPROC, Viewport)
 // clang-format on
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/cell_shape.h"
+#include "scene/large_array.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +23,15 @@ public:
     virtual ~CellTriangles() = default;
 
     virtual std::size_t triangle_bytes() const = 0;
-    virtual std::size_t most_a_cell() const = 0;
 
-    /// Writes the triangles of the cells (inner numbering) in their sequence, and returns how many. Cells set
-    /// apart get none, and are listed.
-    virtual std::size_t make(std::span<const CellId> cells, std::byte* into, std::vector<CellApart>& apart) const = 0;
+    /// How many vectors of four floats the vertex shader takes of a vertex, as attributes 0, 1, ..., 16 bytes apart;
+    /// vertices are a third of triangle_bytes() apart. 0: it reads the triangles as a storage buffer.
+    virtual int vertex_attributes() const = 0;
+
+    /// Replaces `into` by the triangles of the cells (inner numbering) in their sequence, and returns how many; `into`
+    /// may be longer. Cells set apart get none, and are listed.
+    virtual std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
+                             std::vector<CellApart>& apart) const = 0;
 };
 
 } // namespace visorder

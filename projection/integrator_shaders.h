@@ -15,6 +15,13 @@ namespace visorder {
 /// what its neighbours do too much. Optics are colour and, in w, extinction; only where `needs_optics`.
 std::string integrator_shader(Integrator integrator);
 
+/// In place of that, for Integrator::exact where cells come cut into OpticalPasses:
+///
+///     vec4 light_of_pass(float one, float run, float len, bool swapped)
+///
+/// of a way along which the scalar runs from `one` to `one + run`, towards the eye if `swapped`.
+std::string optical_pass_shader();
+
 /// Whether an integrator interpolates colours and extinctions of vertices, so that projectors have to.
 bool needs_optics(Integrator integrator);
 

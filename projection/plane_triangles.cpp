@@ -130,9 +130,12 @@ std::size_t PlaneTriangles::triangle_bytes() const
     return sizeof(PlaneRecord) + (from_.optics.empty() ? 0 : sizeof(PlaneOptics));
 }
 
-std::size_t PlaneTriangles::make(std::span<const CellId> cells, std::byte* into, std::vector<CellApart>& apart) const
+std::size_t PlaneTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
+                                 std::vector<CellApart>& apart) const
 {
-    Writer writer{from_, into};
+    constexpr std::size_t most_a_cell = 2;
+    into.resize(cells.size() * most_a_cell * triangle_bytes());
+    Writer writer{from_, into.data()};
     from_.cells->visit(
         cells, [&](const VisibleCell& cell) { writer.put_cell(cell); },
         [&](CellId cell) {

@@ -12,8 +12,9 @@ public:
     explicit PlaneTriangles(const TriangleSources& sources) : from_(sources) {}
 
     std::size_t triangle_bytes() const override;
-    std::size_t most_a_cell() const override { return 2; }
-    std::size_t make(std::span<const CellId> cells, std::byte* into, std::vector<CellApart>& apart) const override;
+    int vertex_attributes() const override { return 0; }
+    std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
+                     std::vector<CellApart>& apart) const override;
 
 private:
     struct Writer;

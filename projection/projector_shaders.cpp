@@ -1,6 +1,7 @@
 #include "projection/projector_shaders.h"
 
 #include "projection/integrator_shaders.h"
+#include "projection/silhouette_layout.h"
 
 namespace visorder {
 
@@ -45,13 +46,17 @@ void main()
     for (int i = 0; i < 4; ++i)
         optics[i] = triangles[triangle].optics[i];
 #endif
+    hand_on_view();
     // Dividing by a power of two is exact, and the viewport multiplies again.
     gl_Position = vec4(triangles[triangle].corners[gl_VertexID - 3 * triangle] / half_range, 0.0, 1.0);
 }
 )";
 
-constexpr const char* ray_text = R"(
+constexpr const char* result_text = R"(
 layout(location = 0) out vec4 result;
+)";
+
+constexpr const char* near_ray_text = R"(
 uniform vec2 centre;                 // of the image, pixels
 uniform vec3 ray_x, ray_y, ray_1;    // see Screen::rays
 
@@ -61,13 +66,44 @@ float length_per_depth(vec2 pixel)
 }
 )";
 
+// Of the view, what is the same for all fragments. Vertex shaders hand it on: software renderers gather a uniform for
+// each fragment, but read an interpolated value once.
+constexpr const char* view_vertex_text = R"(
+uniform vec2 centre;                 // of the image, pixels
+uniform vec3 ray_x, ray_y, ray_1;    // see Screen::rays
+uniform float inverse_distance;
+
+flat out vec4 middle_and_inverse; // centre, inverse distance
+flat out vec3 ray_squares, ray_products;
+
+void hand_on_view()
+{
+    middle_and_inverse = vec4(centre, inverse_distance, 0.0);
+    ray_squares = vec3(dot(ray_x, ray_x), dot(ray_y, ray_y), dot(ray_1, ray_1));
+    ray_products = 2.0 * vec3(dot(ray_x, ray_y), dot(ray_x, ray_1), dot(ray_y, ray_1));
+}
+)";
+
+constexpr const char* view_text = R"(
+flat in vec4 middle_and_inverse;
+flat in vec3 ray_squares, ray_products;
+
+#define centre middle_and_inverse.xy
+#define inverse_distance middle_and_inverse.z
+
+float length_per_depth(vec2 pixel)
+{
+    return sqrt((ray_squares.x * pixel.x + ray_products.x * pixel.y + ray_products.y) * pixel.x +
+                (ray_squares.y * pixel.y + ray_products.z) * pixel.y + ray_squares.z);
+}
+)";
+
 // See PlaneTriangles.
 constexpr const char* planes_text = R"(
 flat in vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
 #ifdef OPTICS
 flat in vec4 optics[4];
 #endif
-uniform float inverse_distance;
 
 void main()
 {
@@ -102,85 +138,57 @@ void main()
 }
 )";
 
-constexpr const char* silhouette_vertex_text = R"(
-struct Triangle {
-    vec4 place, k12, k3_bases, slopes;
-    vec2 corners[3];
-    vec2 beside;
-#ifdef OPTICS
-    vec4 colours[5];
-#endif
-};
-layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
-uniform float half_range;
-
-flat out vec4 place, k12, k3_bases, slopes;
-flat out vec2 beside;
-#ifdef OPTICS
-flat out vec4 colours[5];
-#endif
-
-void main()
-{
-    int triangle = gl_VertexID / 3;
-    place = triangles[triangle].place;
-    k12 = triangles[triangle].k12;
-    k3_bases = triangles[triangle].k3_bases;
-    slopes = triangles[triangle].slopes;
-    beside = triangles[triangle].beside;
-#ifdef OPTICS
-    for (int i = 0; i < 5; ++i)
-        colours[i] = triangles[triangle].colours[i];
-#endif
-    // Dividing by a power of two is exact, and the viewport multiplies again.
-    gl_Position = vec4(triangles[triangle].corners[gl_VertexID - 3 * triangle] / half_range, 0.0, 1.0);
-}
-)";
-
-// See Thickness.
+// See Thickness and SilhouetteLayout. Along the ray the scalar runs from `one` to `one + run`.
 constexpr const char* silhouette_text = R"(
-flat in vec4 place, k12, k3_bases, slopes;
-flat in vec2 beside; // the rest of the place, less than a lattice step
-#ifdef OPTICS
-flat in vec4 colours[5];
+#ifdef PERSPECTIVE
+flat in vec3 ray0, ray2; // of the length of rays, squared: constant and linear, quadratic
 #endif
-uniform float inverse_distance;
 
 void main()
 {
-    vec2 pixel = gl_FragCoord.xy - centre;
-    vec2 r = pixel + 16384.0 - abs(place.xy) - beside;
+    vec2 r = gl_FragCoord.xy + 16384.0 - abs(place.xy) - beside;
     bool quad = place.x < 0.0;
-    float t1 = dot(k12.xy, r) + (quad ? 1.0 : 0.0);
-    float t2 = dot(k12.zw, r);
-    float t3 = quad ? t1 * k3_bases.x : dot(k3_bases.xy, r);
-    float g = quad ? max(t2, t2 * k3_bases.y) : 0.0;
+    bool swapped = place.y < 0.0;
+    float t1 = dot(tents.xy, r) + (quad ? 1.0 : 0.0);
+    float t2 = dot(tents.zw, r);
+    float t3 = quad ? t1 * place.z : dot(place.zw, r);
+    float g = quad ? max(t2, t2 * place.w) : 0.0;
     float m = quad ? max(t1, t3) : max(max(t1, t2), t3);
     float thickness = 1.0 - g - m;
     // The triangle drawn reaches beyond the cell.
     if (thickness <= 0.0)
         discard;
-    vec2 one = k3_bases.zw + slopes.xz * r.x + slopes.yw * r.y + place.zw * g;
-    vec2 other = one + place.zw * thickness;
-    // Back from what is linear on the screen.
-    float one_scale = 1.0 - one.x * inverse_distance;
-    float other_scale = 1.0 - other.x * inverse_distance;
-    float scale = 1.0 / (one_scale * other_scale);
-    float len = place.z * thickness * scale * length_per_depth(pixel);
-    float one_scalar = one.y * other_scale * scale;
-    float other_scalar = other.y * one_scale * scale;
-    bool swapped = place.y < 0.0;
 #ifdef OPTICS
-    vec4 optics = colours[0] + colours[1] * r.x + colours[2] * r.y + colours[3] * g + colours[4] * m;
+    vec4 optics = colour0 + colour1 * r.x + colour2 * r.y + colour3 * g + colour4 * m;
 #endif
 #ifdef LINEAR
     result = vec4(optics.rgb * optics.w, optics.w);
 #else
+    float one = rises.z + dot(slopes.xy, r);
+    float run = rises.y * thickness;
+    float len = rises.x * thickness;
+#ifdef PERSPECTIVE
+    // Back from what is linear on the screen.
+    float one_scale = 1.0 + dot(slopes.zw, r);
+    float rise = rises.y * one_scale - rises.w * one;
+    one_scale += rises.w * g;
+    float other_scale = one_scale + rises.w * thickness;
+    float scale = 1.0 / (one_scale * other_scale);
+    one = (one + rises.y * g) * other_scale * scale;
+    run = rise * thickness * scale;
+    vec2 p = gl_FragCoord.xy;
+    len *= scale * sqrt(ray0.x + (ray0.y + ray2.x * p.x + ray2.y * p.y) * p.x + (ray0.z + ray2.z * p.y) * p.y);
+#else
+    one += rises.y * g;
+#endif
+#ifdef PASSES
+    result = light_of_pass(one, run, len, swapped);
+#else
 #ifndef OPTICS
     vec4 optics = vec4(0.0);
 #endif
-    result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, swapped ? -len : len,
-                      optics, optics);
+    result = light_of(swapped ? one + run : one, swapped ? one : one + run, len, optics, optics);
+#endif
 #endif
 }
 )";
@@ -298,20 +306,26 @@ void main()
 
 } // namespace
 
-ShaderPair triangle_shaders(Projector projector, Integrator integrator)
+ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective)
 {
-    const std::string start = header(integrator);
-    const std::string fragment = start + ray_text + integrator_shader(integrator);
+    std::string start = header(integrator);
     if (projector == Projector::planes)
-        return {start + planes_vertex_text, fragment + planes_text};
-    return {start + silhouette_vertex_text, fragment + silhouette_text};
+        return {start + view_vertex_text + planes_vertex_text,
+                start + result_text + view_text + integrator_shader(integrator) + planes_text};
+    const SilhouetteLayout layout(integrator);
+    const bool passes = integrator == Integrator::exact;
+    start += perspective ? "#define PERSPECTIVE\n" : "";
+    start += passes ? "#define PASSES\n" : "";
+    return {start + layout.vertex_shader(), start + result_text + layout.declarations() +
+                                                (passes ? optical_pass_shader() : integrator_shader(integrator)) +
+                                                silhouette_text};
 }
 
 ShaderPair near_cell_shaders(Integrator integrator)
 {
     const std::string optics = needs_optics(integrator) ? optics_shader() : "";
     return {header(integrator) + near_cell_vertex_text,
-            header(integrator) + ray_text + optics + integrator_shader(integrator) + near_cell_text};
+            header(integrator) + result_text + near_ray_text + optics + integrator_shader(integrator) + near_cell_text};
 }
 
 } // namespace visorder

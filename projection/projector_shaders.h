@@ -13,7 +13,7 @@ struct ShaderPair {
 };
 
 /// What PlaneTriangles and SilhouetteTriangles make.
-ShaderPair triangle_shaders(Projector projector, Integrator integrator);
+ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective);
 
 /// A rectangle around one NearCell.
 ShaderPair near_cell_shaders(Integrator integrator);

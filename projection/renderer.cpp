@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t stretch_cells = 16384;
 constexpr std::size_t block_cells = 1024;
 constexpr std::size_t ring_segments = 3;
-constexpr std::size_t ring_segment_bytes = std::size_t{4} << 20;
+constexpr std::size_t ring_segment_bytes = std::size_t{1} << 20;
 
 constexpr std::size_t most_points = std::size_t{1} << 30;
 constexpr GLuint triangles_binding = 1;
@@ -135,11 +135,11 @@ FunctionTextures make_textures(const Context& context, const Scene& scene, const
     return {context, options.integrator, options.tables, way_lengths(scene.mesh())};
 }
 
-std::unique_ptr<const CellTriangles> make_triangles(Projector projector, const TriangleSources& sources)
+std::unique_ptr<const CellTriangles> make_triangles(const RenderOptions& options, const TriangleSources& sources)
 {
-    if (projector == Projector::planes)
+    if (options.projector == Projector::planes)
         return std::make_unique<PlaneTriangles>(sources);
-    return std::make_unique<SilhouetteTriangles>(sources, projector == Projector::thick);
+    return std::make_unique<SilhouetteTriangles>(sources, options.integrator, options.projector == Projector::thick);
 }
 
 UploadRing make_ring(const Context& context)
@@ -153,10 +153,10 @@ UploadRing make_ring(const Context& context)
 /// What one part of the order becomes. Blocks are made by threads of their own, each into its place.
 struct ProjectionRenderer::Stretch {
     struct Block {
-        std::size_t triangles = 0;
+        LargeArray<std::byte> bytes; // of the triangles
+        std::size_t count = 0;
         std::vector<CellApart> apart;
     };
-    LargeArray<std::byte> triangles; // block by block, each with room for all it can have
     std::vector<Block> blocks;
     std::vector<CellId> cells; // inner numbering
     double seconds = 0;
@@ -168,8 +168,6 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
       scene_(&checked(scene)),
       options_(checked(options)),
       lattice_(raster_lattice(context)),
-      triangle_program_(
-          make_program(context, "cell projection", triangle_shaders(options.projector, options.integrator))),
       near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator))),
       function_(make_textures(context, scene, options)),
       ring_(make_ring(context))
@@ -193,6 +191,7 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
         inner_cells_[scene.caller_cells()[inner]] = inner;
 
     no_attributes_ = GlObject(context, GlKind::vertex_array);
+    attributes_ = GlObject(context, GlKind::vertex_array);
     for (int i = 0; i < 2; ++i)
         stretches_.push_back(std::make_unique<Stretch>());
     set_transfer_function(function);
@@ -204,7 +203,8 @@ void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
 {
     const Context::Current current(*context_);
     const ScalarRange range = scalar_range(scene_->mesh());
-    function_.set(optical_pieces(function, range.lowest, range.range));
+    pieces_ = optical_pieces(function, range.lowest, range.range);
+    function_.set(pieces_);
     if (!needs_optics(options_.integrator))
         return;
     const auto& scalars = scene_->mesh().scalars;
@@ -221,10 +221,8 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
     Stopwatch watch;
     const std::size_t cells = std::min(stretch_cells, order.back_to_front.size() - first);
     const std::size_t blocks = (cells + block_cells - 1) / block_cells;
-    const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangles.triangle_bytes();
     stretch.cells.resize(cells);
     stretch.blocks.resize(blocks);
-    stretch.triangles.resize(blocks * block_bytes);
     oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
         Stretch::Block& block = stretch.blocks[b];
         const std::size_t begin = b * block_cells;
@@ -236,39 +234,57 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
             stretch.cells[i] = inner_cells_[cell];
         }
         block.apart.clear();
-        block.triangles = triangles.make(std::span(stretch.cells).subspan(begin, count),
-                                         stretch.triangles.data() + b * block_bytes, block.apart);
+        block.count = triangles.make(std::span(stretch.cells).subspan(begin, count), block.bytes, block.apart);
     });
     stretch.seconds = watch.lap();
 }
 
-void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles)
+Program& ProjectionRenderer::triangle_program(const Screen& screen)
+{
+    std::optional<Program>& program = triangle_programs_[screen.perspective() ? 1 : 0];
+    if (!program)
+        program.emplace(make_program(*context_, "cell projection",
+                                     triangle_shaders(options_.projector, options_.integrator, screen.perspective())));
+    return *program;
+}
+
+void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles,
+                               const Program& program)
 {
     const GlFunctions& gl = context_->gl();
     const std::size_t triangle_bytes = triangles.triangle_bytes();
-    const std::size_t block_bytes = block_cells * triangles.most_a_cell() * triangle_bytes;
+    const std::size_t most = ring_.segment_bytes() / triangle_bytes;
     std::size_t b = 0;
+    std::size_t first = 0; // triangle of the block
     while (b < stretch.blocks.size()) {
-        // As many blocks as a segment holds; it holds one at least.
+        // As many triangles as a segment holds.
         std::byte* into = ring_.next();
         std::size_t written = 0;
         std::vector<CellApart> apart;
-        for (; b < stretch.blocks.size(); ++b) {
+        while (b < stretch.blocks.size() && written < most) {
             const Stretch::Block& block = stretch.blocks[b];
-            if ((written + block.triangles) * triangle_bytes > ring_.segment_bytes())
-                break;
+            const std::size_t count = std::min(block.count - first, most - written);
+            const bool all = first + count == block.count;
             for (const CellApart& cell : block.apart)
-                apart.push_back({cell.triangles_before + static_cast<std::uint32_t>(written), cell.cell});
-            std::copy_n(stretch.triangles.data() + b * block_bytes, block.triangles * triangle_bytes,
+                if (cell.triangles_before >= first && (cell.triangles_before < first + count || all))
+                    apart.push_back({static_cast<std::uint32_t>(cell.triangles_before - first + written), cell.cell});
+            std::copy_n(block.bytes.data() + first * triangle_bytes, count * triangle_bytes,
                         into + written * triangle_bytes);
-            written += block.triangles;
+            written += count;
+            first = all ? 0 : first + count;
+            b += all ? 1 : 0;
         }
-        ring_.bind(triangles_binding);
+        const bool attributes = triangles.vertex_attributes() > 0;
+        if (attributes)
+            ring_.bind_vertices(attributes_.id(), triangle_bytes / 3);
+        else
+            ring_.bind(triangles_binding);
         std::size_t drawn = 0;
         const auto draw_up_to = [&](std::size_t end) {
             if (end == drawn)
                 return;
-            triangle_program_.use();
+            program.use();
+            gl.BindVertexArray(attributes ? attributes_.id() : no_attributes_.id());
             gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
             drawn = end;
         };
@@ -312,11 +328,12 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
     near_cell_program_.set("low", glm::vec2(near->low));
     near_cell_program_.set("high", glm::vec2(near->high));
     near_cell_program_.use();
+    context_->gl().BindVertexArray(no_attributes_.id());
     context_->gl().DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     ++statistics_.near_cells;
 }
 
-void ProjectionRenderer::set_up(const Screen& screen)
+void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
 {
     const GlFunctions& gl = context_->gl();
     const GLenum format = framebuffer_format(options_.blending_bits);
@@ -335,28 +352,48 @@ void ProjectionRenderer::set_up(const Screen& screen)
     gl.Enable(GL_BLEND);
     gl.BlendEquation(GL_FUNC_ADD);
     gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl.BindVertexArray(no_attributes_.id());
+    gl.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
 
+    const bool planes = options_.projector == Projector::planes;
     const glm::mat3 rays(screen.rays());
-    for (Program* program : {&triangle_program_, &near_cell_program_}) {
-        program->set("half_range", static_cast<float>(lattice_.half_range));
-        // Opacities that are interpolated hold the lengths already.
-        if (program == &triangle_program_ && options_.integrator == Integrator::linear)
+    for (Program* program : {&triangle_program, &near_cell_program_}) {
+        // Of silhouettes, triangles bring all with them but the length of rays.
+        if (program == &triangle_program && !planes)
             continue;
+        program->set("half_range", static_cast<float>(lattice_.half_range));
         program->set("centre", glm::vec2(screen.centre()));
         program->set("ray_x", rays[0]);
         program->set("ray_y", rays[1]);
         program->set("ray_1", rays[2]);
     }
-    if (options_.integrator != Integrator::linear)
-        triangle_program_.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
-    else
-        triangle_program_.set("centre", glm::vec2(screen.centre()));
+    if (planes) {
+        triangle_program.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
+    } else if (screen.perspective() && options_.integrator != Integrator::linear) {
+        // (x, y) is gl_FragCoord less the centre.
+        const glm::dvec3 ray = screen.rays() * glm::dvec3(-glm::dvec2(screen.centre()), 1);
+        const glm::dvec3& x = screen.rays()[0];
+        const glm::dvec3& y = screen.rays()[1];
+        triangle_program.set("ray_constant", glm::vec3(glm::dot(ray, ray), 2 * glm::dot(ray, x), 2 * glm::dot(ray, y)));
+        triangle_program.set("ray_quadratic", glm::vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y)));
+    }
     const bool exact = options_.integrator == Integrator::exact;
     const bool optics = needs_optics(options_.integrator);
-    function_.introduce(triangle_program_, exact);
+    function_.introduce(triangle_program, exact && planes);
     function_.introduce(near_cell_program_, exact || optics);
     function_.bind();
+}
+
+void ProjectionRenderer::set_up_attributes(const CellTriangles& triangles)
+{
+    const GlFunctions& gl = context_->gl();
+    const GLuint array = attributes_.id();
+    for (; attribute_count_ < triangles.vertex_attributes(); ++attribute_count_) {
+        const auto attribute = static_cast<GLuint>(attribute_count_);
+        gl.EnableVertexArrayAttrib(array, attribute);
+        gl.VertexArrayAttribFormat(array, attribute, 4, GL_FLOAT, GL_FALSE,
+                                   attribute * static_cast<GLuint>(sizeof(glm::vec4)));
+        gl.VertexArrayAttribBinding(array, attribute, 0);
+    }
 }
 
 Image ProjectionRenderer::draw(const View& view, const Order& order)
@@ -368,14 +405,18 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     statistics_ = {};
     Stopwatch watch;
     const Screen screen(view, scene_->bounds());
-    set_up(screen);
+    Program& program = triangle_program(screen);
+    set_up(screen, program);
     points_.place(screen, lattice_, scene_->mesh().points);
     statistics_.place_s = watch.lap();
 
     const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
-    const TriangleSources sources{&screen, &visible, scalars_, optics_, options_.integrator == Integrator::linear};
-    const std::unique_ptr<const CellTriangles> made = make_triangles(options_.projector, sources);
+    const bool linear = options_.integrator == Integrator::linear;
+    const bool exact = options_.integrator == Integrator::exact;
+    const TriangleSources sources{&screen, &visible, scalars_, optics_, linear, exact ? &pieces_ : nullptr};
+    const std::unique_ptr<const CellTriangles> made = make_triangles(options_, sources);
     const CellTriangles& triangles = *made;
+    set_up_attributes(triangles);
     const std::size_t cells = order.back_to_front.size();
     prepare(order, 0, triangles, *stretches_[0]);
     for (std::size_t first = 0, i = 0; first < cells; first += stretch_cells, ++i) {
@@ -384,7 +425,7 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
         if (first + stretch_cells < cells)
             group.run([&, this] { prepare(order, first + stretch_cells, triangles, *stretches_[(i + 1) % 2]); });
         try {
-            issue(*stretches_[i % 2], screen, triangles);
+            issue(*stretches_[i % 2], screen, triangles, program);
         } catch (...) {
             group.wait();
             throw;

@@ -4,6 +4,7 @@
 #include "graphics/program.h"
 #include "projection/cell_triangles.h"
 #include "projection/function_textures.h"
+#include "projection/optical_pieces.h"
 #include "projection/projector.h"
 #include "projection/screen.h"
 #include "projection/screen_points.h"
@@ -13,6 +14,7 @@
 #include "scene/scene.h"
 #include "sorting/sorter.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -70,23 +72,28 @@ public:
 private:
     struct Stretch;
 
+    Program& triangle_program(const Screen& screen);
     void prepare(const Order& order, std::size_t first, const CellTriangles& triangles, Stretch& stretch) const;
-    void issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles);
+    void issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles, const Program& program);
     void draw_near_cell(const Screen& screen, CellId cell);
-    void set_up(const Screen& screen);
+    void set_up(const Screen& screen, Program& triangle_program);
+    void set_up_attributes(const CellTriangles& triangles);
 
     const Context* context_;
     const Scene* scene_;
     RenderOptions options_;
     RasterLattice lattice_;
-    std::vector<float> scalars_;       // 0 to 1 over the scene
-    std::vector<std::uint8_t> turned_; // of each cell
-    std::vector<glm::vec4> optics_;    // of each point, where the integrator interpolates them
-    LargeArray<CellId> inner_cells_;   // of each of the caller's cells
-    Program triangle_program_;
+    std::vector<float> scalars_;                              // 0 to 1 over the scene
+    std::vector<std::uint8_t> turned_;                        // of each cell
+    std::vector<glm::vec4> optics_;                           // of each point, where the integrator interpolates them
+    LargeArray<CellId> inner_cells_;                          // of each of the caller's cells
+    std::array<std::optional<Program>, 2> triangle_programs_; // for parallel and for perspective views, once needed
     Program near_cell_program_;
+    OpticalPieces pieces_;
     FunctionTextures function_;
     GlObject no_attributes_;
+    GlObject attributes_;
+    int attribute_count_ = 0;
     UploadRing ring_;
     std::optional<Framebuffer> framebuffer_;
     ScreenPoints points_;

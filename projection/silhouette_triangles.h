@@ -1,28 +1,36 @@
 #pragma once
 
+#include "projection/silhouette_layout.h"
 #include "projection/triangle_sources.h"
 
 namespace visorder {
 
 /// The triangles of Projector::silhouette and Projector::thick: of each triangle of a cell's outline, or of Shirley and
-/// Tuchman's fan around its thickest point, the cell's Thickness, as the shader reads it.
+/// Tuchman's fan around its thickest point, the cell's Thickness, as the shader reads it. Where the integrator is
+/// exact, one for each of the cell's OpticalPasses, pass by pass.
 ///
 /// All of it is linear on Shirley and Tuchman's triangles, and so a fragment knows it wherever the rasteriser has the
 /// triangles' corners.
 class SilhouetteTriangles final : public CellTriangles {
 public:
     /// `fans`: whether to draw fans rather than outlines.
-    SilhouetteTriangles(const TriangleSources& sources, bool fans);
+    SilhouetteTriangles(const TriangleSources& sources, Integrator integrator, bool fans);
 
-    std::size_t triangle_bytes() const override;
-    std::size_t most_a_cell() const override { return fans_ ? 4 : 2; }
-    std::size_t make(std::span<const CellId> cells, std::byte* into, std::vector<CellApart>& apart) const override;
+    std::size_t triangle_bytes() const override { return layout_.triangle_bytes(); }
+    int vertex_attributes() const override { return layout_.vertex_attributes(); }
+    std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
+                     std::vector<CellApart>& apart) const override;
 
 private:
     struct Writer;
 
     TriangleSources from_;
+    SilhouetteLayout layout_;
     bool fans_;
+    bool linear_;
+    bool perspective_;
+    double inverse_distance_;
+    double longest_ray_; // distance over depth, where it is most in the image
 };
 
 } // namespace visorder

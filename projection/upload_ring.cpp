@@ -7,6 +7,9 @@ namespace {
 // Of offsets of storage buffers; no renderer asks for more.
 constexpr std::size_t alignment = 256;
 
+// Of all that a vertex shader takes of a vertex, in bytes: 16 vectors.
+constexpr std::size_t longest_vertex = 256;
+
 std::size_t aligned(std::size_t bytes)
 {
     return (bytes + alignment - 1) / alignment * alignment;
@@ -22,7 +25,8 @@ UploadRing::UploadRing(const Context& context, std::size_t segment_bytes, std::s
 {
     const GlFunctions& gl = context.gl();
     constexpr GLbitfield flags = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    const auto bytes = static_cast<GLsizeiptr>(segment_bytes_ * segments);
+    // The attributes of the last vertex may reach beyond it.
+    const auto bytes = static_cast<GLsizeiptr>(segment_bytes_ * segments + aligned(longest_vertex));
     gl.NamedBufferStorage(buffer_.id(), bytes, nullptr, flags);
     memory_ = static_cast<std::byte*>(gl.MapNamedBufferRange(buffer_.id(), 0, bytes, flags));
     context.check();
@@ -57,6 +61,12 @@ void UploadRing::bind(GLuint binding) const
     context_->gl().BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer_.id(),
                                    static_cast<GLintptr>(current_ * segment_bytes_),
                                    static_cast<GLsizeiptr>(segment_bytes_));
+}
+
+void UploadRing::bind_vertices(GLuint vertex_array, std::size_t stride) const
+{
+    context_->gl().VertexArrayVertexBuffer(
+        vertex_array, 0, buffer_.id(), static_cast<GLintptr>(current_ * segment_bytes_), static_cast<GLsizei>(stride));
 }
 
 void UploadRing::issued()

@@ -22,6 +22,9 @@ public:
     /// Lets shaders read the segment that `next` gave out, as the storage buffer of this binding.
     void bind(GLuint binding) const;
 
+    /// Lets the vertices of a vertex array, `stride` bytes each, be read from that segment, as of its binding 0.
+    void bind_vertices(GLuint vertex_array, std::size_t stride) const;
+
     /// Says that all draws from that segment have been issued.
     void issued();
 

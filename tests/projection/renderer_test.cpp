@@ -159,6 +159,25 @@ TEST(Renderer, IntegratorsComeNearerToTheRayCasterOneByOne)
         }
 }
 
+TEST(Renderer, DrawsWhatIsOpaqueManyTimesOver)
+{
+    const Scene& scene = scene_of("grid:400");
+    const glm::dvec3 colour(0.25, 0.5, 1);
+    for (const double extinction : {1e2, 1e4, 1e8}) {
+        const TransferFunction function({{0, extinction / scene.diameter(), colour}});
+        for (const Projector projector : projectors()) {
+            const RenderOptions options = with(projector, Integrator::exact);
+            ProjectionRenderer renderer(context(), scene, function, options);
+            for (const NamedView& view : random_views(scene, 2, 21, glm::ivec2(48))) {
+                SCOPED_TRACE(reproduce("grid:400", view, options) + ", extinction " + std::to_string(extinction));
+                const Image image = renderer.draw(view.view, order_for(scene, view.view));
+                const RayCast cast = truth(scene, function, view.view);
+                EXPECT_LT(image_errors(image, image_of(cast), cast.near_silhouette).largest, 1e-3);
+            }
+        }
+    }
+}
+
 TEST(Renderer, EveryIntegratorIsRightWhereAllIsConstant)
 {
     const Scene& scene = scene_of("grid:400");

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "projection/optical_pieces.h"
+
+#include <glm/vec4.hpp>
+#include <vector>
+
+namespace visorder {
+
+/// A part of the ways through a cell on which extinction and colour are linear and optical depth is small: what a
+/// fragment integrates without looking anything up. Scalars are relative to CellWays::reference.
+struct OpticalPass {
+    glm::vec4 medium; ///< extinction and colour at the reference
+    glm::vec4 rise;   ///< their rise per unit of the scalar
+
+    /// Of a ray's way, what lies between the first two as scalars and between the others as shares of the way from
+    /// Thickness' one side to the other. Negative, the last says that only those rays are meant along which the scalar
+    /// runs from the first to the second.
+    glm::vec4 window;
+};
+
+/// The ways of all rays through a cell.
+struct CellWays {
+    float lowest, highest; ///< scalars
+    float reference;       ///< a scalar between
+    double longest;        ///< at least as long as any
+    bool rises, falls;     ///< whether the scalar does, along some ray, from Thickness' one side to the other
+    bool swapped;          ///< see Thickness
+};
+
+/// Replaces `passes` by those of a cell, farthest first along each ray. Parts without extinction have none.
+void find_optical_passes(const OpticalPieces& pieces, const CellWays& ways, std::vector<OpticalPass>& passes);
+
+} // namespace visorder

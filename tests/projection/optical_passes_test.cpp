@@ -1,0 +1,107 @@
+#include "projection/optical_passes.h"
+
+#include "projection/preintegration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+namespace visorder {
+namespace {
+
+OpticalPieces pieces_with_jumps_and_a_gap()
+{
+    return optical_pieces(TransferFunction({{0.1, 0.5, {1, 0, 0}},
+                                            {0.3, 4, {0, 1, 0}},
+                                            {0.3, 1, {0, 0, 1}},
+                                            {0.4, 0, {1, 1, 0}},
+                                            {0.6, 0, {0, 1, 1}},
+                                            {0.7, 3, {1, 0.5, 0}},
+                                            {0.9, 0.2, {0.2, 0.4, 0.6}}}),
+                          0, 1);
+}
+
+struct Ray {
+    double one, run, length; // from Thickness' one side to the other
+};
+
+// What a fragment does with a pass, but for the integral, which is the reference's.
+glm::dvec4 light_of(const OpticalPieces& pieces, const CellWays& ways, const OpticalPass& pass, const Ray& ray,
+                    double& share)
+{
+    const double one = ray.one - static_cast<double>(ways.reference);
+    const double first = (static_cast<double>(pass.window.x) - one) / ray.run;
+    const double second = (static_cast<double>(pass.window.y) - one) / ray.run;
+    const bool one_way = pass.window.w < 0;
+    const double from = pass.window.z;
+    const double to = std::abs(pass.window.w);
+    const double begin = std::clamp(one_way ? first : std::min(first, second), from, to);
+    const double end = std::clamp(one_way ? second : std::max(first, second), from, to);
+    share = std::max(end - begin, 0.0);
+    if (share <= 0)
+        return glm::dvec4(0);
+    const double at_begin = ray.one + begin * ray.run;
+    const double at_end = ray.one + end * ray.run;
+    const double middle = 0.5 * (at_begin + at_end);
+    const double extinction = static_cast<double>(pass.medium.x) +
+                              (middle - static_cast<double>(ways.reference)) * static_cast<double>(pass.rise.x);
+    EXPECT_NEAR(extinction, mean_extinction(pieces, at_begin, at_end), 1e-4);
+    EXPECT_LT(share * ray.length * extinction, 1.001);
+    return ways.swapped ? light_along(pieces, at_end, at_begin, share * ray.length)
+                        : light_along(pieces, at_begin, at_end, share * ray.length);
+}
+
+TEST(OpticalPasses, MakeUpTheWholeWayFarthestFirst)
+{
+    const OpticalPieces pieces = pieces_with_jumps_and_a_gap();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(0, 1);
+    std::vector<OpticalPass> passes;
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE(i);
+        const double low = number(random);
+        const double high = low + number(random) * (1 - low);
+        const bool both = i % 3 == 0;
+        const bool rises = i % 2 == 0;
+        CellWays ways{static_cast<float>(low),
+                      static_cast<float>(high),
+                      static_cast<float>(low),
+                      3 * number(random),
+                      both || rises,
+                      both || !rises,
+                      i % 5 < 2};
+        find_optical_passes(pieces, ways, passes);
+        for (int k = 0; k < 4; ++k) {
+            double one = low + number(random) * (high - low);
+            double other = low + number(random) * (high - low);
+            if (!both && (other > one) != rises)
+                std::swap(one, other);
+            const Ray ray{one, other - one, ways.longest * number(random)};
+            glm::dvec4 light(0);
+            for (const OpticalPass& pass : passes) {
+                double share = 0;
+                const glm::dvec4 before = light_of(pieces, ways, pass, ray, share);
+                light = before + (1 - before.w) * light;
+            }
+            const glm::dvec4 whole = ways.swapped ? light_along(pieces, other, one, ray.length)
+                                                  : light_along(pieces, one, other, ray.length);
+            for (int c = 0; c < 4; ++c)
+                EXPECT_NEAR(light[c], whole[c], 2e-5);
+        }
+    }
+}
+
+TEST(OpticalPasses, AreNoneWhereNothingIsSeen)
+{
+    std::vector<OpticalPass> passes;
+    const OpticalPieces pieces = pieces_with_jumps_and_a_gap();
+    find_optical_passes(pieces, {0.45F, 0.55F, 0.5F, 2, true, false, false}, passes);
+    EXPECT_TRUE(passes.empty());
+    find_optical_passes(pieces, {0.45F, 0.65F, 0.5F, 0.1, true, false, false}, passes);
+    EXPECT_EQ(passes.size(), 1U);
+}
+
+} // namespace
+} // namespace visorder
