@@ -10,25 +10,26 @@
 
 namespace visorder {
 
-/// A cell that no triangles stand for (see VisibleCells), and how many triangles stand before it.
+/// A cell that no triangles stand for (see VisibleCells), and how many records stand before it.
 struct CellApart {
-    std::uint32_t triangles_before;
+    std::uint32_t records_before;
     CellId cell;
 };
 
-/// What a projector makes of cells, in the form that its vertex shader reads: triangles in sequence, each of some
-/// number of bytes. Threads may share one.
+/// What a projector makes of cells, in the form that its vertex shader reads: records in sequence, each of some number
+/// of bytes, for one triangle or some. Threads may share one.
 class CellTriangles {
 public:
     virtual ~CellTriangles() = default;
 
-    virtual std::size_t triangle_bytes() const = 0;
+    virtual std::size_t record_bytes() const = 0;
+    virtual std::size_t triangles_a_record() const { return 1; }
 
     /// How many vectors of four floats the vertex shader takes of a vertex, as attributes 0, 1, ..., 16 bytes apart;
-    /// vertices are a third of triangle_bytes() apart. 0: it reads the triangles as a storage buffer.
+    /// vertices are a third of record_bytes() apart. 0: it reads the records as a storage buffer.
     virtual int vertex_attributes() const = 0;
 
-    /// Replaces `into` by the triangles of the cells (inner numbering) in their sequence, and returns how many; `into`
+    /// Replaces `into` by the records of the cells (inner numbering) in their sequence, and returns how many; `into`
     /// may be longer. Cells set apart get none, and are listed.
     virtual std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                              std::vector<CellApart>& apart) const = 0;

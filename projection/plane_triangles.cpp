@@ -125,7 +125,7 @@ struct PlaneTriangles::Writer {
     }
 };
 
-std::size_t PlaneTriangles::triangle_bytes() const
+std::size_t PlaneTriangles::record_bytes() const
 {
     return sizeof(PlaneRecord) + (from_.optics.empty() ? 0 : sizeof(PlaneOptics));
 }
@@ -134,7 +134,7 @@ std::size_t PlaneTriangles::make(std::span<const CellId> cells, LargeArray<std::
                                  std::vector<CellApart>& apart) const
 {
     constexpr std::size_t most_a_cell = 2;
-    into.resize(cells.size() * most_a_cell * triangle_bytes());
+    into.resize(cells.size() * most_a_cell * record_bytes());
     Writer writer{from_, into.data()};
     from_.cells->visit(
         cells, [&](const VisibleCell& cell) { writer.put_cell(cell); },

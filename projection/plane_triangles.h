@@ -11,7 +11,7 @@ class PlaneTriangles final : public CellTriangles {
 public:
     explicit PlaneTriangles(const TriangleSources& sources) : from_(sources) {}
 
-    std::size_t triangle_bytes() const override;
+    std::size_t record_bytes() const override;
     int vertex_attributes() const override { return 0; }
     std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellApart>& apart) const override;

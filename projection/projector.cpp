@@ -34,6 +34,8 @@ const char* name(Projector projector)
         return "planes";
     case Projector::thick:
         return "thick";
+    case Projector::thick_gpu:
+        return "thick-gpu";
     }
     return "";
 }
@@ -57,7 +59,8 @@ const char* name(Integrator integrator)
 
 std::span<const Projector> projectors()
 {
-    static constexpr std::array<Projector, 3> all{Projector::silhouette, Projector::planes, Projector::thick};
+    static constexpr std::array<Projector, 4> all{Projector::silhouette, Projector::planes, Projector::thick,
+                                                  Projector::thick_gpu};
     return all;
 }
 

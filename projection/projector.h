@@ -9,7 +9,8 @@ namespace visorder {
 enum class Projector {
     silhouette, ///< its outline, one triangle or two; fragments know the thickness as a function of the pixel
     planes,     ///< the same outline; fragments find entry and exit from the planes of the faces
-    thick       ///< three or four triangles around the thickest point (Shirley and Tuchman 1990), with thickness
+    thick,      ///< three or four triangles around the thickest point (Shirley and Tuchman 1990), with thickness
+    thick_gpu   ///< the same triangles, made by the vertex shader
 };
 
 /// What the integral of light along a ray through a cell is taken for.
@@ -27,7 +28,7 @@ const char* name(Integrator integrator);
 std::span<const Projector> projectors();
 std::span<const Integrator> integrators();
 
-/// By name: silhouette, planes, thick. Throws InputError for another.
+/// By name: silhouette, planes, thick, thick-gpu. Throws InputError for another.
 Projector projector_named(std::string_view name);
 /// By name: linear, exponential, preintegrated-2d, preintegrated-3d, exact. Throws InputError for another.
 Integrator integrator_named(std::string_view name);

@@ -2,6 +2,7 @@
 
 #include "projection/integrator_shaders.h"
 #include "projection/silhouette_layout.h"
+#include "projection/thick_vertex_shader.h"
 
 namespace visorder {
 
@@ -312,13 +313,14 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
     if (projector == Projector::planes)
         return {start + view_vertex_text + planes_vertex_text,
                 start + result_text + view_text + integrator_shader(integrator) + planes_text};
-    const SilhouetteLayout layout(integrator);
-    const bool passes = integrator == Integrator::exact;
+    const bool in_shader = projector == Projector::thick_gpu;
+    const bool passes = integrator == Integrator::exact && !in_shader;
+    const SilhouetteLayout layout(integrator, passes);
     start += perspective ? "#define PERSPECTIVE\n" : "";
     start += passes ? "#define PASSES\n" : "";
-    return {start + layout.vertex_shader(), start + result_text + layout.declarations() +
-                                                (passes ? optical_pass_shader() : integrator_shader(integrator)) +
-                                                silhouette_text};
+    return {start + (in_shader ? thick_vertex_shader() : layout.vertex_shader()),
+            start + result_text + layout.declarations() +
+                (passes ? optical_pass_shader() : integrator_shader(integrator)) + silhouette_text};
 }
 
 ShaderPair near_cell_shaders(Integrator integrator)

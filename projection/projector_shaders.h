@@ -12,7 +12,7 @@ struct ShaderPair {
     std::string fragment;
 };
 
-/// What PlaneTriangles and SilhouetteTriangles make.
+/// For what PlaneTriangles, SilhouetteTriangles and ShaderThickTriangles make.
 ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective);
 
 /// A rectangle around one NearCell.

@@ -4,6 +4,7 @@
 #include "projection/near_cell.h"
 #include "projection/plane_triangles.h"
 #include "projection/projector_shaders.h"
+#include "projection/shader_thick_triangles.h"
 #include "projection/silhouette_triangles.h"
 #include "scene/error.h"
 #include "scene/stopwatch.h"
@@ -139,7 +140,24 @@ std::unique_ptr<const CellTriangles> make_triangles(const RenderOptions& options
 {
     if (options.projector == Projector::planes)
         return std::make_unique<PlaneTriangles>(sources);
+    if (options.projector == Projector::thick_gpu)
+        return std::make_unique<ShaderThickTriangles>(sources);
     return std::make_unique<SilhouetteTriangles>(sources, options.integrator, options.projector == Projector::thick);
+}
+
+// Whether the fragments of triangles do.
+bool looks_up_pieces(const RenderOptions& options)
+{
+    return options.integrator == Integrator::exact &&
+           (options.projector == Projector::planes || options.projector == Projector::thick_gpu);
+}
+
+void set_rays(Program& program, const Screen& screen)
+{
+    const glm::mat3 rays(screen.rays());
+    program.set("ray_x", rays[0]);
+    program.set("ray_y", rays[1]);
+    program.set("ray_1", rays[2]);
 }
 
 UploadRing make_ring(const Context& context)
@@ -153,7 +171,7 @@ UploadRing make_ring(const Context& context)
 /// What one part of the order becomes. Blocks are made by threads of their own, each into its place.
 struct ProjectionRenderer::Stretch {
     struct Block {
-        LargeArray<std::byte> bytes; // of the triangles
+        LargeArray<std::byte> bytes; // of the records
         std::size_t count = 0;
         std::vector<CellApart> apart;
     };
@@ -252,12 +270,13 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
                                const Program& program)
 {
     const GlFunctions& gl = context_->gl();
-    const std::size_t triangle_bytes = triangles.triangle_bytes();
-    const std::size_t most = ring_.segment_bytes() / triangle_bytes;
+    const std::size_t record_bytes = triangles.record_bytes();
+    const std::size_t vertices = 3 * triangles.triangles_a_record();
+    const std::size_t most = ring_.segment_bytes() / record_bytes;
     std::size_t b = 0;
-    std::size_t first = 0; // triangle of the block
+    std::size_t first = 0; // record of the block
     while (b < stretch.blocks.size()) {
-        // As many triangles as a segment holds.
+        // As many records as a segment holds.
         std::byte* into = ring_.next();
         std::size_t written = 0;
         std::vector<CellApart> apart;
@@ -266,17 +285,16 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
             const std::size_t count = std::min(block.count - first, most - written);
             const bool all = first + count == block.count;
             for (const CellApart& cell : block.apart)
-                if (cell.triangles_before >= first && (cell.triangles_before < first + count || all))
-                    apart.push_back({static_cast<std::uint32_t>(cell.triangles_before - first + written), cell.cell});
-            std::copy_n(block.bytes.data() + first * triangle_bytes, count * triangle_bytes,
-                        into + written * triangle_bytes);
+                if (cell.records_before >= first && (cell.records_before < first + count || all))
+                    apart.push_back({static_cast<std::uint32_t>(cell.records_before - first + written), cell.cell});
+            std::copy_n(block.bytes.data() + first * record_bytes, count * record_bytes, into + written * record_bytes);
             written += count;
             first = all ? 0 : first + count;
             b += all ? 1 : 0;
         }
         const bool attributes = triangles.vertex_attributes() > 0;
         if (attributes)
-            ring_.bind_vertices(attributes_.id(), triangle_bytes / 3);
+            ring_.bind_vertices(attributes_.id(), record_bytes / 3);
         else
             ring_.bind(triangles_binding);
         std::size_t drawn = 0;
@@ -285,16 +303,17 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
                 return;
             program.use();
             gl.BindVertexArray(attributes ? attributes_.id() : no_attributes_.id());
-            gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * drawn), static_cast<GLsizei>(3 * (end - drawn)));
+            gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(vertices * drawn),
+                          static_cast<GLsizei>(vertices * (end - drawn)));
             drawn = end;
         };
         for (const CellApart& cell : apart) {
-            draw_up_to(cell.triangles_before);
+            draw_up_to(cell.records_before);
             draw_near_cell(screen, cell.cell);
         }
         draw_up_to(written);
         ring_.issued();
-        statistics_.triangles += written;
+        statistics_.triangles += written * triangles.triangles_a_record();
     }
     statistics_.prepare_s += stretch.seconds;
 }
@@ -354,33 +373,43 @@ void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
     gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
 
+    near_cell_program_.set("half_range", static_cast<float>(lattice_.half_range));
+    near_cell_program_.set("centre", glm::vec2(screen.centre()));
+    set_rays(near_cell_program_, screen);
+    function_.introduce(near_cell_program_,
+                        options_.integrator == Integrator::exact || needs_optics(options_.integrator));
+    set_up_triangles(triangle_program, screen);
+    function_.introduce(triangle_program, looks_up_pieces(options_));
+    function_.bind();
+}
+
+void ProjectionRenderer::set_up_triangles(Program& program, const Screen& screen) const
+{
     const bool planes = options_.projector == Projector::planes;
-    const glm::mat3 rays(screen.rays());
-    for (Program* program : {&triangle_program, &near_cell_program_}) {
-        // Of silhouettes, triangles bring all with them but the length of rays.
-        if (program == &triangle_program && !planes)
-            continue;
-        program->set("half_range", static_cast<float>(lattice_.half_range));
-        program->set("centre", glm::vec2(screen.centre()));
-        program->set("ray_x", rays[0]);
-        program->set("ray_y", rays[1]);
-        program->set("ray_1", rays[2]);
+    const bool in_shader = options_.projector == Projector::thick_gpu;
+    const bool linear = options_.integrator == Integrator::linear;
+    if (planes || in_shader) {
+        program.set("half_range", static_cast<float>(lattice_.half_range));
+        program.set("centre", glm::vec2(screen.centre()));
     }
-    if (planes) {
-        triangle_program.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
-    } else if (screen.perspective() && options_.integrator != Integrator::linear) {
+    if (planes)
+        program.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
+    if (in_shader) {
+        program.set("lattice_steps", static_cast<float>(lattice_.steps));
+        program.set("inverse_distance", screen.inverse_distance());
+    }
+    if (planes || (in_shader && linear)) {
+        set_rays(program, screen);
+    } else if (screen.perspective() && !linear) {
         // (x, y) is gl_FragCoord less the centre.
         const glm::dvec3 ray = screen.rays() * glm::dvec3(-glm::dvec2(screen.centre()), 1);
         const glm::dvec3& x = screen.rays()[0];
         const glm::dvec3& y = screen.rays()[1];
-        triangle_program.set("ray_constant", glm::vec3(glm::dot(ray, ray), 2 * glm::dot(ray, x), 2 * glm::dot(ray, y)));
-        triangle_program.set("ray_quadratic", glm::vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y)));
+        program.set("ray_constant", glm::vec3(glm::dot(ray, ray), 2 * glm::dot(ray, x), 2 * glm::dot(ray, y)));
+        program.set("ray_quadratic", glm::vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y)));
+    } else if (in_shader) {
+        program.set("length_a_depth", static_cast<float>(glm::length(screen.rays()[2])));
     }
-    const bool exact = options_.integrator == Integrator::exact;
-    const bool optics = needs_optics(options_.integrator);
-    function_.introduce(triangle_program, exact && planes);
-    function_.introduce(near_cell_program_, exact || optics);
-    function_.bind();
 }
 
 void ProjectionRenderer::set_up_attributes(const CellTriangles& triangles)

@@ -77,6 +77,7 @@ private:
     void issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles, const Program& program);
     void draw_near_cell(const Screen& screen, CellId cell);
     void set_up(const Screen& screen, Program& triangle_program);
+    void set_up_triangles(Program& program, const Screen& screen) const;
     void set_up_attributes(const CellTriangles& triangles);
 
     const Context* context_;

@@ -6,7 +6,7 @@
 
 namespace visorder {
 
-SilhouetteLayout::SilhouetteLayout(Integrator integrator)
+SilhouetteLayout::SilhouetteLayout(Integrator integrator, bool passes)
 {
     const auto add = [&](std::initializer_list<const char*> names) {
         for (const char* const name : names)
@@ -16,7 +16,7 @@ SilhouetteLayout::SilhouetteLayout(Integrator integrator)
     // Opacities that are interpolated hold lengths and scalars already.
     if (integrator != Integrator::linear)
         add({"rises", "slopes"});
-    if (integrator == Integrator::exact)
+    if (passes)
         add({"medium", "medium_rise", "window"});
     if (needs_optics(integrator))
         add({"colour0", "colour1", "colour2", "colour3", "colour4"});

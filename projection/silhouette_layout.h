@@ -19,7 +19,8 @@ namespace visorder {
 /// renderers gather whatever is not an attribute or an interpolated value lane by lane, uniforms included.)
 class SilhouetteLayout {
 public:
-    explicit SilhouetteLayout(Integrator integrator);
+    /// `passes`: whether triangles come with an OpticalPass.
+    SilhouetteLayout(Integrator integrator, bool passes);
 
     std::size_t triangle_bytes() const { return 3 * static_cast<std::size_t>(a_corner_) * sizeof(glm::vec4); }
     int vertex_attributes() const { return 3 * a_corner_; }

@@ -39,7 +39,7 @@ struct SilhouetteTriangles::Writer {
 
     std::byte* next()
     {
-        const std::size_t bytes = triangles.triangle_bytes();
+        const std::size_t bytes = triangles.record_bytes();
         if (into.size() < (count + 1) * bytes)
             into.resize(2 * (count + 1) * bytes);
         return into.data() + count++ * bytes;
@@ -181,7 +181,7 @@ struct SilhouetteTriangles::Writer {
 
 SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources, Integrator integrator, bool fans)
     : from_(sources),
-      layout_(integrator),
+      layout_(integrator, sources.pieces != nullptr),
       fans_(fans),
       linear_(integrator == Integrator::linear),
       perspective_(sources.screen->perspective()),
@@ -193,7 +193,7 @@ SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources, Integra
 std::size_t SilhouetteTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                                       std::vector<CellApart>& apart) const
 {
-    into.resize(cells.size() * triangle_bytes());
+    into.resize(cells.size() * record_bytes());
     Writer writer{*this, into};
     from_.cells->visit(
         cells, [&](const VisibleCell& cell) { writer.put_cell(cell); },

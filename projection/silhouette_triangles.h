@@ -16,7 +16,7 @@ public:
     /// `fans`: whether to draw fans rather than outlines.
     SilhouetteTriangles(const TriangleSources& sources, Integrator integrator, bool fans);
 
-    std::size_t triangle_bytes() const override { return layout_.triangle_bytes(); }
+    std::size_t record_bytes() const override { return layout_.triangle_bytes(); }
     int vertex_attributes() const override { return layout_.vertex_attributes(); }
     std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
                      std::vector<CellApart>& apart) const override;

@@ -90,7 +90,11 @@ RayCast truth(const Scene& scene, const TransferFunction& function, const View& 
 class EveryProjector : public testing::TestWithParam<Projector> {};
 
 INSTANTIATE_TEST_SUITE_P(Renderer, EveryProjector, testing::ValuesIn(projectors().begin(), projectors().end()),
-                         [](const auto& projector) { return name(projector.param); });
+                         [](const auto& projector) {
+                             std::string title = name(projector.param);
+                             std::replace(title.begin(), title.end(), '-', '_');
+                             return title;
+                         });
 
 // Every pixel, silhouettes included, on every solid scene from twenty views.
 TEST_P(EveryProjector, HasNoCracksAndNoDoubleHits)
@@ -155,6 +159,29 @@ TEST(Renderer, IntegratorsComeNearerToTheRayCasterOneByOne)
                 const double error = image_errors(image, image_of(cast), cast.near_silhouette).root_mean_square;
                 EXPECT_LT(error, before);
                 before = error;
+            }
+        }
+}
+
+TEST(Renderer, DecomposesCellsInTheShaderAsOnTheProcessor)
+{
+    constexpr glm::ivec2 size(64);
+    for (const char* scene_name : {"carved:700", "slivers:400", "grid:400"})
+        for (const Integrator integrator : {Integrator::linear, Integrator::exponential, Integrator::exact}) {
+            const Scene& scene = scene_of(scene_name);
+            const TransferFunction function = function_for(scene, "rainbow");
+            ProjectionRenderer on_processor(context(), scene, function, with(Projector::thick, integrator));
+            const RenderOptions options = with(Projector::thick_gpu, integrator);
+            ProjectionRenderer in_shader(context(), scene, function, options);
+            std::vector<NamedView> views = random_views(scene, 2, 13, size);
+            views.push_back({"inside", inside(scene, 100, size)});
+            for (const NamedView& view : views) {
+                SCOPED_TRACE(reproduce(scene_name, view, options));
+                const Order order = order_for(scene, view.view);
+                const ImageErrors errors =
+                    image_errors(in_shader.draw(view.view, order), on_processor.draw(view.view, order));
+                EXPECT_LT(errors.root_mean_square, 2e-6);
+                EXPECT_LT(errors.largest, 5e-5);
             }
         }
 }
