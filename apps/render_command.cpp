@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace visorder {
@@ -71,15 +70,6 @@ View chosen_view(const Arguments& arguments, const Scene& scene)
     return view_of(camera, size);
 }
 
-std::optional<ScalarInterval> scalars_of(const Scene& scene)
-{
-    const auto& scalars = scene.mesh().scalars;
-    if (scalars.empty())
-        return std::nullopt;
-    const auto [lowest, highest] = std::minmax_element(scalars.begin(), scalars.end());
-    return ScalarInterval{*lowest, *highest};
-}
-
 TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
 {
     const auto names = transfer_function_names();
@@ -88,7 +78,7 @@ TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
         if (!std::filesystem::exists(arguments.transfer))
             throw InputError(fmt::format("{}: neither a file nor a transfer function; there are: {}",
                                          arguments.transfer, fmt::join(names, ", ")));
-        return read_transfer_function(arguments.transfer, {unit_length, arguments.map, scalars_of(scene)});
+        return read_transfer_function(arguments.transfer, {unit_length, arguments.map, scalar_interval(scene.mesh())});
     }
     return named_transfer_function(arguments.transfer, scene, unit_length);
 }

@@ -13,6 +13,7 @@
 #include "checking/ray_caster.h"
 #include "projection/renderer.h"
 #include "scene/error.h"
+#include "scene/scalar_interval.h"
 #include "scene/stopwatch.h"
 #include "sorting/registry.h"
 
@@ -43,8 +44,7 @@ constexpr double preintegrated_rmse = 2e-3;
 TransferFunction peak(const Scene& scene, double width)
 {
     std::vector<float> scalars = scene.mesh().scalars;
-    const auto [lowest, highest] = std::minmax_element(scalars.begin(), scalars.end());
-    const double reach = width * (static_cast<double>(*highest) - static_cast<double>(*lowest)) / 2;
+    const double reach = width * scalar_interval(scene.mesh()).value().width() / 2;
     const auto middle = scalars.begin() + static_cast<std::ptrdiff_t>(scalars.size() / 2);
     std::nth_element(scalars.begin(), middle, scalars.end());
     const double unit = scene.diameter() / 10;
@@ -93,19 +93,16 @@ std::array<KindOfView, 3> views_of(const Scene& scene, int side)
 double change_along_cells(const Scene& scene)
 {
     const Mesh& mesh = scene.mesh();
-    const auto range_of = [](const auto& scalars) {
-        const auto [lowest, highest] = std::minmax_element(scalars.begin(), scalars.end());
-        return static_cast<double>(*highest) - static_cast<double>(*lowest);
-    };
     std::vector<double> changes;
     for (CellId cell = 0; cell < mesh.cell_count(); ++cell) {
         const auto v = mesh.cell(cell);
-        changes.push_back(range_of(
-            std::array<float, 4>{mesh.scalars[v[0]], mesh.scalars[v[1]], mesh.scalars[v[2]], mesh.scalars[v[3]]}));
+        const auto [lowest, highest] =
+            std::minmax({mesh.scalars[v[0]], mesh.scalars[v[1]], mesh.scalars[v[2]], mesh.scalars[v[3]]});
+        changes.push_back(static_cast<double>(highest) - static_cast<double>(lowest));
     }
     const auto middle = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() / 2);
     std::nth_element(changes.begin(), middle, changes.end());
-    return *middle / range_of(mesh.scalars);
+    return *middle / scalar_interval(mesh).value().width();
 }
 
 class Study {

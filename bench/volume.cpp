@@ -2,12 +2,12 @@
 
 #include "bench/generated_scene.h"
 #include "scene/error.h"
+#include "scene/scalar_interval.h"
 #include "scene/subdivision.h"
 #if defined(VISORDER_WITH_VTK)
 #include "vtk/read_mesh.h"
 #endif
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace visorder {
@@ -34,8 +34,7 @@ Mesh mesh_named(const std::string& name)
 Mesh volume_named(const std::string& name)
 {
     Mesh mesh = subdivide(mesh_named(name)).mesh;
-    const auto [lowest, highest] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
-    if (lowest == mesh.scalars.end() || *lowest == *highest)
+    if (const auto scalars = scalar_interval(mesh); !scalars || scalars->width() == 0)
         throw InputError(fmt::format("{}: scalars are all the same; choose another array, as FILE@ARRAY", name));
     return mesh;
 }

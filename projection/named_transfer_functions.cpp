@@ -1,5 +1,6 @@
 #include "projection/transfer_function.h"
 #include "scene/error.h"
+#include "scene/scalar_interval.h"
 #include "scene/scene.h"
 #include "scene/srgb.h"
 
@@ -142,11 +143,10 @@ TransferFunction named_transfer_function(std::string_view name, double lowest, d
 
 TransferFunction named_transfer_function(std::string_view name, const Scene& scene, double unit_length)
 {
-    const auto& scalars = scene.mesh().scalars;
-    if (scalars.empty())
+    const auto scalars = scalar_interval(scene.mesh());
+    if (!scalars)
         throw InputError("the mesh has no scalars to draw");
-    const auto [lowest, highest] = std::minmax_element(scalars.begin(), scalars.end());
-    return named_transfer_function(name, *lowest, *highest, unit_length);
+    return named_transfer_function(name, scalars->lowest, scalars->highest, unit_length);
 }
 
 } // namespace visorder

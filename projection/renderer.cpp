@@ -7,6 +7,7 @@
 #include "projection/shader_thick_triangles.h"
 #include "projection/silhouette_triangles.h"
 #include "scene/error.h"
+#include "scene/scalar_interval.h"
 #include "scene/stopwatch.h"
 
 #include <algorithm>
@@ -96,9 +97,8 @@ struct ScalarRange {
 
 ScalarRange scalar_range(const Mesh& mesh)
 {
-    const auto [low, high] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
-    const double range = static_cast<double>(*high) - static_cast<double>(*low);
-    return {*low, range > 0 ? range : 1};
+    const auto [lowest, highest] = scalar_interval(mesh).value();
+    return {lowest, highest > lowest ? highest - lowest : 1};
 }
 
 // Random lines cross a convex body along four times its volume over its surface in the mean (Cauchy).

@@ -1,16 +1,13 @@
 #pragma once
 
 #include "projection/transfer_function.h"
+#include "scene/scalar_interval.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
 namespace visorder {
-
-struct ScalarInterval {
-    double lowest, highest;
-};
 
 struct TransferFunctionFileOptions {
     double unit_length = 1; ///< the distance over which the opacities of a ParaView file hold

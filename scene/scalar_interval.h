@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/mesh.h"
+
+#include <optional>
+
+namespace visorder {
+
+/// From the lowest scalar to the highest.
+struct ScalarInterval {
+    double lowest, highest;
+
+    double width() const { return highest - lowest; }
+};
+
+/// Of all points of a mesh; none if it has no scalars.
+std::optional<ScalarInterval> scalar_interval(const Mesh& mesh);
+
+} // namespace visorder
