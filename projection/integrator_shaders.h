@@ -11,8 +11,7 @@ namespace visorder {
 ///     vec4 light_of(float front, float back, float len, vec4 front_optics, vec4 back_optics)
 ///
 /// the light, premultiplied, and opacity of a ray's way through a cell: of length `len`, along which the scalar (0 to 1
-/// over the scene) runs from `front` to `back`. A negative length, where rounding to pixels has turned a cell, undoes
-/// what its neighbours do too much. Optics are colour and, in w, extinction; only where `needs_optics`.
+/// over the scene) runs from `front` to `back`. Optics are colour and, in w, extinction; only where `needs_optics`.
 std::string integrator_shader(Integrator integrator);
 
 /// In place of that, for Integrator::exact where cells come cut into OpticalPasses:

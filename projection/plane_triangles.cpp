@@ -1,9 +1,9 @@
 #include "projection/plane_triangles.h"
 
 #include "projection/outline.h"
+#include "projection/packed_place.h"
 #include "projection/thickness.h"
 
-#include <cmath>
 #include <cstring>
 
 namespace visorder {
@@ -12,8 +12,7 @@ namespace {
 
 // What the vertex shader reads: see projector_shaders.cpp.
 struct PlaneRecord {
-    glm::vec2 place;      // in pixels, positive; negative x: of a quad; negative y: entry and exit are exchanged
-    glm::vec2 beside;     // the rest of the place, less than a lattice step
+    PackedPlace place;    // from the image's centre
     glm::vec4 depth;      // base, slope, rise
     glm::vec4 scalar;     // likewise
     glm::vec4 offset;     // of four planes
@@ -27,9 +26,6 @@ struct PlaneRecord {
 struct PlaneOptics {
     glm::vec4 base, slope_x, slope_y, rise;
 };
-
-// Added to a place, in pixels, so that its coordinates are positive and their signs can say something else.
-constexpr float place_offset = 16384;
 
 glm::vec4 packed(const Thickness::Linear& linear)
 {
@@ -92,7 +88,6 @@ struct PlaneTriangles::Writer {
     void put_cell(const VisibleCell& cell)
     {
         const RasterLattice& lattice = from.cells->lattice();
-        const double steps = lattice.steps;
         const Outline outline = outline_of(cell, lattice);
         bool ready = false;
         PlaneRecord record{};
@@ -102,12 +97,7 @@ struct PlaneTriangles::Writer {
                 continue;
             if (!ready) {
                 const Thickness t = thickness_of(cell, values_of(cell, from.scalars, from.screen->inverse_distance()));
-                const glm::dvec2 place(cell.at[0].x, cell.at[0].y);
-                const glm::dvec2 on_lattice(std::round(place.x * steps) / steps, std::round(place.y * steps) / steps);
-                record.place = glm::vec2(on_lattice) + place_offset;
-                record.place.x = t.kind == SilhouetteClass::quad ? -record.place.x : record.place.x;
-                record.place.y = t.swapped ? -record.place.y : record.place.y;
-                record.beside = glm::vec2(place - on_lattice);
+                record.place = packed_place({cell.at[0].x, cell.at[0].y}, glm::ivec2(0), lattice, t.kind, t.swapped);
                 record.depth = packed(t.depth);
                 record.scalar = packed(t.scalar);
                 put_planes(record, t);
@@ -116,7 +106,7 @@ struct PlaneTriangles::Writer {
                 ready = true;
             }
             for (std::size_t i = 0; i < 3; ++i)
-                record.corners[i] = glm::vec2(triangle[i]) / static_cast<float>(steps);
+                record.corners[i] = glm::vec2(triangle[i]) / static_cast<float>(lattice.steps);
             put(record);
             if (!from.optics.empty())
                 put(optics);

@@ -1,8 +1,11 @@
 #include "projection/projector_shaders.h"
 
 #include "projection/integrator_shaders.h"
+#include "projection/packed_place.h"
 #include "projection/silhouette_layout.h"
 #include "projection/thick_vertex_shader.h"
+
+#include <fmt/format.h>
 
 namespace visorder {
 
@@ -10,7 +13,7 @@ namespace {
 
 std::string header(Integrator integrator)
 {
-    std::string text = "#version 450 core\n";
+    std::string text = fmt::format("#version 450 core\n#define PLACE_OFFSET {}.0\n", PackedPlace::offset);
     if (needs_optics(integrator))
         text += "#define OPTICS\n";
     if (integrator == Integrator::linear)
@@ -109,7 +112,7 @@ flat in vec4 optics[4];
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    vec2 r = pixel + 16384.0 - abs(place.xy) - place.zw;
+    vec2 r = pixel + PLACE_OFFSET - abs(place.xy) - place.zw;
     bool quad = place.x < 0.0;
     vec4 planes = offsets + slopes_x * r.x + slopes_y * r.y;
     float first = quad ? max(planes.x, planes.y) : planes.x;
@@ -147,7 +150,7 @@ flat in vec3 ray0, ray2; // of the length of rays, squared: constant and linear,
 
 void main()
 {
-    vec2 r = gl_FragCoord.xy + 16384.0 - abs(place.xy) - beside;
+    vec2 r = gl_FragCoord.xy + PLACE_OFFSET - abs(place.xy) - beside;
     bool quad = place.x < 0.0;
     bool swapped = place.y < 0.0;
     float t1 = dot(tents.xy, r) + (quad ? 1.0 : 0.0);

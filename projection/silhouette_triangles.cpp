@@ -2,6 +2,7 @@
 
 #include "projection/optical_passes.h"
 #include "projection/outline.h"
+#include "projection/packed_place.h"
 #include "projection/thickness.h"
 
 #include <algorithm>
@@ -12,9 +13,6 @@
 namespace visorder {
 
 namespace {
-
-// Added to a place, in pixels, so that its coordinates are positive and their signs can say something else.
-constexpr float place_offset = 16384;
 
 double longest_ray(const Screen& screen)
 {
@@ -55,15 +53,11 @@ struct SilhouetteTriangles::Writer {
 
     Common common_of(const VisibleCell& cell, const Thickness& t) const
     {
-        const double steps = triangles.from_.cells->lattice().steps;
-        // In two parts, of which single precision holds the first exactly.
-        const glm::dvec2 origin(cell.at[0].x, cell.at[0].y);
-        const glm::dvec2 on_lattice(std::round(origin.x * steps) / steps, std::round(origin.y * steps) / steps);
-        const glm::vec2 place = glm::vec2(on_lattice + glm::dvec2(triangles.from_.screen->centre())) + place_offset;
+        const PackedPlace place = packed_place({cell.at[0].x, cell.at[0].y}, triangles.from_.screen->centre(),
+                                               triangles.from_.cells->lattice(), t.kind, t.swapped);
         Common common;
-        common.place =
-            glm::vec4(t.kind == SilhouetteClass::quad ? -place.x : place.x, t.swapped ? -place.y : place.y, t.k3);
-        common.beside = glm::vec2(origin - on_lattice);
+        common.place = glm::vec4(place.on_lattice, t.k3);
+        common.beside = place.beside;
         common.vectors[common.size++] = {t.k1, t.k2};
         if (triangles.linear_)
             return common;

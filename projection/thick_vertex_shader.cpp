@@ -166,9 +166,9 @@ void main()
     bool swapped = !quad && !inner_behind;
 
     gl_Position = vec4(vec2(corner_of_fan(thickest, triangle, corner)) / (lattice_steps * half_range), 0.0, 1.0);
-    // In two parts, of which single precision holds the first exactly.
+    // See PackedPlace.
     dvec2 on_lattice = rounded(at[0] * lattice_steps) / double(lattice_steps);
-    vec2 positive = vec2(on_lattice + centre) + 16384.0;
+    vec2 positive = vec2(on_lattice + centre) + PLACE_OFFSET;
     place = vec4(quad ? -positive.x : positive.x, swapped ? -positive.y : positive.y, k3);
     beside = vec2(at[0] - on_lattice);
     tents = vec4(k1, k2);
