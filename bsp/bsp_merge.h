@@ -5,6 +5,7 @@
 #include "sorting/team.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,7 @@ private:
 
     static constexpr std::uint32_t none = BspXmpvo::no_cell; // and no face
     static constexpr std::size_t worth_a_team = 1 << 12;     // boundary cells; with fewer, one thread lists
+    static constexpr std::size_t most_members = 16;          // in a team
     static constexpr std::size_t least_looks = 16;           // in a step, if there are as many to do
     static constexpr std::size_t looks_at_once = 4;          // of one thread
     static constexpr std::size_t prefetch_rows = 32;
@@ -112,8 +114,9 @@ private:
     // most of what they may cover has been listed.
     void list()
     {
-        const std::size_t most = sorter_.boundary_cells_.count() < worth_a_team ? 1 : concurrency();
-        std::vector<Tests> tests(most);
+        const std::size_t most =
+            sorter_.boundary_cells_.count() < worth_a_team ? 1 : std::min(concurrency(), most_members);
+        std::array<Tests, most_members> tests{};
         Team::run(most, [&](Team& team, std::size_t member) {
             Tests of_member; // not yet beside those of others: lines that two write go to and fro
             if (member == 0)

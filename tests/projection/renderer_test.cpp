@@ -167,7 +167,7 @@ TEST(Renderer, DecomposesCellsInTheShaderAsOnTheProcessor)
 {
     constexpr glm::ivec2 size(64);
     for (const char* scene_name : {"carved:700", "slivers:400", "grid:400"})
-        for (const Integrator integrator : {Integrator::linear, Integrator::exponential, Integrator::exact}) {
+        for (const Integrator integrator : integrators()) {
             const Scene& scene = scene_of(scene_name);
             const TransferFunction function = function_for(scene, "rainbow");
             ProjectionRenderer on_processor(context(), scene, function, with(Projector::thick, integrator));
