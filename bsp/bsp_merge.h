@@ -13,6 +13,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,6 @@ public:
           eye_(eye),
           state_(state),
           neighbour_(row > 0 ? sorter.scene_.adjacency().neighbour.data() : nullptr),
-          caller_cells_(sorter.scene_.caller_cells().data()),
           order_(order.back_to_front.data())
     {
     }
@@ -37,19 +37,25 @@ public:
     /// Returns how many cells were listed; fewer than all where relations run in circles.
     std::size_t run()
     {
-        oneapi::tbb::parallel_invoke([&] { count(); }, [&] { sorter_.reset_pending(); });
+        oneapi::tbb::parallel_invoke(
+            [&] {
+                count();
+                list_queue();
+            },
+            [&] { sorter_.reset_pending(); });
         list();
+        number_as_caller();
         return listed_;
     }
 
 private:
-    using Tests = BspXmpvo::Tests;
+    using BoundaryCell = BspXmpvo::BoundaryCell;
 
     static constexpr std::uint32_t none = BspXmpvo::no_cell; // and no face
-    static constexpr std::size_t worth_a_team = 1 << 12;     // boundary cells; with fewer, one thread lists
+    static constexpr std::size_t worth_a_team = 1 << 12;     // boundary cells; with fewer, one thread does all
     static constexpr std::size_t most_members = 16;          // in a team
     static constexpr std::size_t least_looks = 16;           // in a step, if there are as many to do
-    static constexpr std::size_t looks_at_once = 4;          // of one thread
+    static constexpr std::size_t looks_at_once = 16;         // of one thread
     static constexpr std::size_t prefetch_rows = 32;
     static constexpr std::size_t prefetch_states = 12;
 
@@ -57,7 +63,16 @@ private:
     static constexpr State one = State{2} << row;
 
     static bool ready(State s) { return s < one; }
-    CellId owner(std::uint32_t face) const { return sorter_.tree_.faces()[face].cell; }
+
+    // Until then the order speaks of inner cells: a scattered read less where one thread lists.
+    void number_as_caller()
+    {
+        const CellId* const caller_cells = sorter_.scene_.caller_cells().data();
+        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, listed_, 16384), [&](const auto& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i)
+                order_[i] = caller_cells[order_[i]];
+        });
+    }
 
     void count()
     {
@@ -75,10 +90,8 @@ private:
         } else {
             std::fill_n(state_, cells, State{0});
         }
-        for (std::size_t i = 0; i < sorter_.boundary_cells_.count(); ++i) {
-            State& state = state_[owner(sorter_.boundary_cells_.faces(i).first)];
-            state = static_cast<State>(state | at_boundary);
-        }
+        for (const BoundaryCell& cell : sorter_.cells_)
+            state_[cell.cell] = static_cast<State>(state_[cell.cell] | at_boundary);
         // A boundary cell can be there twice: when it is ready, and when it may be listed.
         sorter_.queue_.resize(cells + sorter_.boundary_cells_.count() + 1);
         CellId* const queue = sorter_.queue_.data();
@@ -106,8 +119,6 @@ private:
         }
     }
 
-    bool is_listed(std::uint32_t boundary_cell) const { return sorter_.is_listed_[boundary_cell] != 0; }
-
     // Lists the cells that are ready, and those that become so, in steps. In a step all that wait in the queue are
     // listed, and side by side with that, some ready cells with boundary exit faces look for what they cover, among
     // what was pending when the step began: so an order does not depend on which thread does what. Farthest first, when
@@ -116,22 +127,16 @@ private:
     {
         const std::size_t most =
             sorter_.boundary_cells_.count() < worth_a_team ? 1 : std::min(concurrency(), most_members);
-        std::array<Tests, most_members> tests{};
+        sorter_.workspaces_.resize(std::max(most, sorter_.workspaces_.size()));
         Team::run(most, [&](Team& team, std::size_t member) {
-            Tests of_member; // not yet beside those of others: lines that two write go to and fro
             if (member == 0)
-                lead(team, of_member);
+                lead(team, sorter_.workspaces_[0]);
             else
-                follow(team, of_member);
-            tests[member] = of_member;
+                follow(team, sorter_.workspaces_[member]);
         });
-        for (const Tests& of_member : tests) {
-            sorter_.tests_.all += of_member.all;
-            sorter_.tests_.exact += of_member.exact;
-        }
     }
 
-    void lead(Team& team, Tests& tests)
+    void lead(Team& team, CoverSearch::Workspace& workspace)
     {
         while (true) {
             take_farthest();
@@ -144,104 +149,98 @@ private:
             next_look_.store(0, std::memory_order_relaxed);
             team.wait_for_all();
             list_queue();
-            look_for_covered(tests);
+            look_for_covered(workspace);
             team.wait_for_all();
             end_step();
         }
         team.wait_for_all();
     }
 
-    void follow(Team& team, Tests& tests)
+    void follow(Team& team, CoverSearch::Workspace& workspace)
     {
         while (true) {
             team.wait_for_all();
             if (sorter_.looking_.empty())
                 return;
-            look_for_covered(tests);
+            look_for_covered(workspace);
             team.wait_for_all();
         }
     }
 
-    // Of the ready cells that are still to look, those in the farthest slabs.
+    // Of the ready cells that are still to look, those in the farthest slabs, and their exit faces.
     void take_farthest()
     {
-        std::vector<std::uint32_t>& looking = sorter_.looking_;
-        looking.clear();
-        for (; farthest_ > 0 && looking.size() < least_looks; --farthest_)
-            for (std::uint32_t cell = std::exchange(sorter_.deferred_[farthest_ - 1], none); cell != none;
-                 cell = sorter_.next_[cell])
-                looking.push_back(cell);
-        sorter_.covered_.resize(looking.size());
+        sorter_.looking_.clear();
+        sorter_.exits_.clear();
+        for (; farthest_ > 0 && sorter_.looking_.size() < least_looks; --farthest_) {
+            std::vector<std::uint32_t>& deferred = sorter_.deferred_[farthest_ - 1];
+            sorter_.looking_.insert(sorter_.looking_.end(), deferred.begin(), deferred.end());
+            deferred.clear();
+        }
+        for (const std::uint32_t cell : sorter_.looking_)
+            each_face(cell, sorter_.cells_[cell].exits, [&](std::uint32_t face) { sorter_.exits_.push_back(face); });
+        sorter_.covered_.resize(sorter_.exits_.size());
     }
 
     // This thread's share.
-    void look_for_covered(Tests& tests)
+    void look_for_covered(CoverSearch::Workspace& workspace)
     {
-        const std::size_t all = sorter_.looking_.size();
+        const std::size_t all = sorter_.exits_.size();
         while (true) {
             const std::size_t begin = next_look_.fetch_add(looks_at_once, std::memory_order_relaxed);
             if (begin >= all)
                 return;
-            for (std::size_t i = begin; i < std::min(begin + looks_at_once, all); ++i)
-                sorter_.covered_[i] = covered_by(sorter_.looking_[i], tests);
+            const std::size_t count = std::min(looks_at_once, all - begin);
+            sorter_.cover_search_.find(std::span(sorter_.exits_).subspan(begin, count),
+                                       std::span(sorter_.covered_).subspan(begin, count), workspace);
         }
-    }
-
-    // A pending face that some exit face of the cell covers, or none: a near one, whose cell is likely to be listed
-    // last.
-    std::uint32_t covered_by(std::uint32_t boundary_cell, Tests& tests)
-    {
-        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
-        std::uint32_t covered = none;
-        for (std::uint32_t face = begin; face < end && covered == none; ++face)
-            if ((sorter_.roles_[face] & BspXmpvo::exit_role) != 0)
-                sorter_.pending_.search(
-                    face, [&](std::uint32_t entry) { sorter_.heights_.prefetch(entry); },
-                    [&](std::uint32_t entry) {
-                        if (sorter_.obstructs(face, entry, eye_, tests))
-                            covered = entry;
-                        return covered == none;
-                    });
-        return covered;
     }
 
     // What looked and covers nothing goes back to the queue to be listed; the others wait for the cell of the face that
     // they cover, or look again if it has been listed meanwhile. The faces of what was listed are gone.
     void end_step()
     {
-        for (std::size_t i = 0; i < sorter_.looking_.size(); ++i) {
-            const std::uint32_t boundary_cell = sorter_.looking_[i];
-            if (sorter_.covered_[i] == none) {
+        const std::uint32_t* covered = sorter_.covered_.data();
+        for (const std::uint32_t boundary_cell : sorter_.looking_) {
+            BoundaryCell& cell = sorter_.cells_[boundary_cell];
+            std::uint32_t covered_face = none;
+            for (unsigned exits = cell.exits; exits != 0; exits &= exits - 1, ++covered)
+                covered_face = covered_face == none ? *covered : covered_face;
+            if (covered_face == none) {
                 list_boundary_cell(boundary_cell);
-                sorter_.queue_[ready_++] = owner(sorter_.boundary_cells_.faces(boundary_cell).first);
+                sorter_.queue_[ready_++] = cell.cell;
+                state_[cell.cell] = static_cast<State>(state_[cell.cell] & ~at_boundary);
+                if constexpr (row > 0)
+                    __builtin_prefetch(neighbour_ + std::size_t{cell.cell} * row);
                 continue;
             }
-            const std::uint32_t covered = sorter_.boundary_cells_.of_face(sorter_.covered_[i]);
-            if (is_listed(covered)) {
+            BoundaryCell& of_face = sorter_.cells_[sorter_.boundary_cells_.of_face(covered_face)];
+            if (of_face.is_listed) {
                 defer(boundary_cell);
                 continue;
             }
             ++sorter_.relation_count_;
-            sorter_.next_[boundary_cell] = std::exchange(sorter_.waiting_head_[covered], boundary_cell);
+            cell.next = std::exchange(of_face.waiting_head, boundary_cell);
         }
-        for (std::uint32_t boundary_cell : sorter_.listed_in_step_)
-            remove_faces(boundary_cell);
+        for (const std::uint32_t boundary_cell : sorter_.listed_in_step_)
+            each_face(boundary_cell, sorter_.cells_[boundary_cell].entries,
+                      [&](std::uint32_t face) { sorter_.cover_search_.remove(face); });
         sorter_.listed_in_step_.clear();
     }
 
-    void remove_faces(std::uint32_t boundary_cell)
+    template <class Visit>
+    void each_face(std::uint32_t boundary_cell, unsigned bits, Visit&& visit) const
     {
-        const auto [begin, end] = sorter_.boundary_cells_.faces(boundary_cell);
-        for (std::uint32_t face = begin; face < end; ++face)
-            if ((sorter_.roles_[face] & BspXmpvo::entry_role) != 0)
-                sorter_.pending_.remove(face);
+        for (std::uint32_t face = sorter_.cells_[boundary_cell].first_face; bits != 0; ++face, bits >>= 1)
+            if ((bits & 1) != 0)
+                visit(face);
     }
 
     void defer(std::uint32_t boundary_cell)
     {
-        const std::uint32_t slab = sorter_.slabs_[boundary_cell];
-        sorter_.next_[boundary_cell] = std::exchange(sorter_.deferred_[slab], boundary_cell);
-        farthest_ = std::max<std::size_t>(farthest_, slab + 1);
+        const std::uint8_t slab = sorter_.cells_[boundary_cell].slab;
+        sorter_.deferred_[slab].push_back(boundary_cell);
+        farthest_ = std::max<std::size_t>(farthest_, slab + 1u);
     }
 
     void list_queue()
@@ -254,7 +253,6 @@ private:
         for (std::size_t at = queue_begin_; at < ready_end; ++at) {
             if (at + prefetch_rows < ready_end) {
                 const CellId ahead = queue[at + prefetch_rows];
-                __builtin_prefetch(caller_cells_ + ahead);
                 if constexpr (row > 0) {
                     __builtin_prefetch(neighbour + std::size_t{ahead} * row);
                     const CellId* soon = neighbour + std::size_t{queue[at + prefetch_states]} * row;
@@ -271,7 +269,7 @@ private:
             const State s = state[cell];
             if ((s & at_boundary) != 0 && !come_to_boundary_cell(cell))
                 continue;
-            order_[listed_++] = caller_cells_[cell];
+            order_[listed_++] = cell;
             if constexpr (row > 0) {
                 const CellId* across = neighbour + std::size_t{cell} * row;
                 for (int f = 0; f < row; ++f) {
@@ -286,13 +284,13 @@ private:
         queue_begin_ = ready_ = ready_end;
     }
 
-    // Whether a ready boundary cell is to be listed now: if it has no exit face there, or covers nothing any more.
+    // Whether a boundary cell that has become ready is to be listed now: if it has no exit face there.
     bool come_to_boundary_cell(CellId cell)
     {
-        const auto boundary_cell = static_cast<std::uint32_t>(sorter_.boundary_cells_.of_cell(cell));
-        if (is_listed(boundary_cell))
-            return true;
-        if (sorter_.slabs_[boundary_cell] != BspXmpvo::no_slab) {
+        const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_cell(cell);
+        if ((sorter_.blocked_[boundary_cell] -= BspXmpvo::not_ready) != 0)
+            return false;
+        if (sorter_.cells_[boundary_cell].slab != BspXmpvo::no_slab) {
             defer(boundary_cell);
             return false;
         }
@@ -303,21 +301,25 @@ private:
     // What waited for the cell looks again for what it covers.
     void list_boundary_cell(std::uint32_t boundary_cell)
     {
-        sorter_.is_listed_[boundary_cell] = 1;
-        sorter_.listed_in_step_.push_back(boundary_cell);
-        std::uint32_t waiting = std::exchange(sorter_.waiting_head_[boundary_cell], none);
+        BoundaryCell& cell = sorter_.cells_[boundary_cell];
+        cell.is_listed = true;
+        if (cell.entries != 0)
+            sorter_.listed_in_step_.push_back(boundary_cell);
+        std::uint32_t waiting = std::exchange(cell.waiting_head, none);
         while (waiting != none) {
-            const std::uint32_t next = sorter_.next_[waiting];
+            const std::uint32_t next = sorter_.cells_[waiting].next;
             defer(waiting);
             waiting = next;
         }
+        for (std::uint32_t i = cell.front_begin; i < cell.front_end; ++i)
+            if (--sorter_.blocked_[sorter_.fronts_[i]] == 0)
+                defer(sorter_.fronts_[i]);
     }
 
     BspXmpvo& sorter_;
     const glm::dvec4& eye_;
     State* state_;
     const CellId* neighbour_;
-    const CellId* caller_cells_;
     CellId* order_;
     std::size_t queue_begin_ = 0;
     std::size_t ready_ = 0;

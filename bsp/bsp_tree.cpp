@@ -19,7 +19,7 @@ namespace visorder {
 
 namespace {
 
-constexpr std::size_t leaf_size = 8;
+constexpr std::size_t leaf_size = 32;
 constexpr std::size_t plane_sample = 12;  // planes that are tried for a node
 constexpr std::size_t face_sample = 128;  // faces they are tried on
 constexpr std::size_t split_weight = 3;   // one face split counts as much as being this uneven
@@ -310,11 +310,17 @@ BspTree::BspTree(const Scene& scene, std::uint64_t seed) : scene_(scene)
     else
         faces_ = scene.boundary().faces;
     BspConstruction(*this, seed).run();
+    frame_ = unit_frame(scene.bounds());
+    planes_.reserve(nodes_.size());
+    const auto& points = scene.mesh().points;
+    for (const Node& node : nodes_)
+        planes_.push_back(unit_plane(frame_, points[node.a], points[node.b], points[node.c]));
 }
 
 std::size_t BspTree::bytes() const
 {
     return faces_.capacity() * sizeof(CellFace) + nodes_.capacity() * sizeof(Node) +
+           planes_.capacity() * sizeof(UnitPlane) +
            (groups_.capacity() + group_counts_.capacity()) * sizeof(std::uint32_t);
 }
 

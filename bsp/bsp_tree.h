@@ -3,6 +3,7 @@
 #include "scene/boundary.h"
 #include "scene/exact_predicates.h"
 #include "scene/scene.h"
+#include "scene/unit_planes.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -55,8 +56,11 @@ private:
         std::uint32_t negative;
     };
 
-    Sign side(const Node& node, const glm::dvec4& eye) const
+    Sign side(std::uint32_t index, const glm::dvec4& eye, const UnitEye& unit) const
     {
+        if (const Sign side = unit.sure_side(planes_[index]); side != Sign::zero)
+            return side;
+        const Node& node = nodes_[index];
         const auto& points = scene_.mesh().points;
         return side_of_plane(points[node.a], points[node.b], points[node.c], eye);
     }
@@ -67,6 +71,8 @@ private:
     std::vector<CellFace> faces_;
     std::vector<std::uint32_t> group_counts_;
     std::vector<Node> nodes_; // the root first, children after their parents
+    UnitFrame frame_{};
+    std::vector<UnitPlane> planes_; // of the nodes; of a leaf, of no meaning
     std::vector<std::uint32_t> groups_;
     std::size_t depth_ = 0;
     std::size_t placed_ = 0; // faces that are in some group
@@ -81,6 +87,7 @@ void BspTree::walk(const glm::dvec4& eye, Visit&& visit) const
         std::uint32_t node;
         bool group_only; // its far side has been walked
     };
+    const UnitEye unit(frame_, eye);
     std::vector<Step> stack{{0, false}};
     while (!stack.empty()) {
         const auto [index, group_only] = stack.back();
@@ -88,7 +95,7 @@ void BspTree::walk(const glm::dvec4& eye, Visit&& visit) const
         const Node& node = nodes_[index];
         if (!group_only && (node.positive != none || node.negative != none)) {
             // From within the plane no ray crosses it: either side may come first.
-            const bool in_front = side(node, eye) != Sign::negative;
+            const bool in_front = side(index, eye, unit) != Sign::negative;
             const std::uint32_t near = in_front ? node.positive : node.negative;
             const std::uint32_t far = in_front ? node.negative : node.positive;
             if (near != none)

@@ -1,13 +1,13 @@
 #include "bsp/bsp_xmpvo.h"
 
 #include "bsp/bsp_merge.h"
-#include "scene/face_overlap.h"
 #include "sorting/registry.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
@@ -20,7 +20,7 @@ namespace {
 // How far from the eye points are, in slabs of the scene's depth: a guess at the order, no decision.
 class Depth {
 public:
-    Depth(const Box& bounds, const glm::dvec4& eye, std::uint16_t slabs) : eye_(eye), slabs_(slabs)
+    Depth(const Box& bounds, const glm::dvec4& eye, std::uint8_t slabs) : eye_(eye), slabs_(slabs)
     {
         const glm::dvec3 half = bounds.max * 0.5 - bounds.min * 0.5;
         const double radius = std::sqrt(glm::dot(half, half));
@@ -30,12 +30,12 @@ public:
         slabs_per_unit_ = slabs_ / (middle + radius * unit - nearest_);
     }
 
-    std::uint16_t slab(const glm::dvec3& point) const
+    std::uint8_t slab(const glm::dvec3& point) const
     {
         const double slab = (of(point) - nearest_) * slabs_per_unit_;
-        return slab >= slabs_ ? static_cast<std::uint16_t>(slabs_ - 1)
-               : slab > 0     ? static_cast<std::uint16_t>(slab)
-                              : std::uint16_t{0};
+        return slab >= slabs_ ? static_cast<std::uint8_t>(slabs_ - 1)
+               : slab > 0     ? static_cast<std::uint8_t>(slab)
+                              : std::uint8_t{0};
     }
 
 private:
@@ -48,145 +48,104 @@ private:
     }
 
     glm::dvec4 eye_;
-    std::uint16_t slabs_;
+    std::uint8_t slabs_;
     double nearest_ = 0;
     double slabs_per_unit_ = 0;
 };
 
-std::vector<std::uint8_t> with_area(const BspTree& tree)
-{
-    std::vector<std::uint8_t> has_area(tree.faces().size());
-    for (std::size_t i = 0; i < has_area.size(); ++i)
-        has_area[i] = tree.group_counts()[i] > 0;
-    return has_area;
-}
-
 } // namespace
 
 BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
-    : scene_(scene),
-      tree_(scene, seed),
-      boundary_cells_(tree_.faces(), scene.cell_count()),
-      corners_(scene.mesh(), tree_.faces(), with_area(tree_)),
-      heights_(scene, tree_.faces(), corners_),
-      images_(corners_)
+    : scene_(scene), tree_(scene, seed), boundary_cells_(tree_.faces(), scene.cell_count()), cover_search_(scene, tree_)
 {
-    scene.overlapping_cells();
 }
 
 void BspXmpvo::look_at_faces(const glm::dvec4& eye)
 {
     const std::span<const CellFace> faces = tree_.faces();
-    const ProjectionCharts charts(scene_.bounds(), eye);
     roles_.resize(faces.size());
-    is_listed_.assign(boundary_cells_.count(), 0);
-    waiting_head_.assign(boundary_cells_.count(), no_cell);
-    next_.resize(boundary_cells_.count());
-    slabs_.resize(boundary_cells_.count());
-    deferred_.assign(slab_count, no_cell);
-    boxes_.reset(faces.size(), charts.count());
+    cells_.resize(boundary_cells_.count());
+    for (std::vector<std::uint32_t>& deferred : deferred_)
+        deferred.clear();
     const Depth depth(scene_.bounds(), eye, slab_count);
-    has_images_ = charts.has_images();
-    if (has_images_)
-        images_.project(charts);
+    const FaceCorners& corners = cover_search_.corners();
     oneapi::tbb::parallel_for(
         oneapi::tbb::blocked_range<std::size_t>(0, boundary_cells_.count(), 1024), [&](const auto& range) {
             for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
-                slabs_[cell] = no_slab;
                 const auto [begin, end] = boundary_cells_.faces(cell);
+                BoundaryCell of_cell{faces[begin].cell, begin, 0, 0, no_slab, false, no_cell, no_cell, 0, 0};
                 for (std::uint32_t i = begin; i < end; ++i) {
-                    roles_[i] = tree_.group_counts()[i] == 0 ? 0 : role(i, eye);
-                    if (roles_[i] == 0)
+                    const std::uint8_t role = corners.has(i) ? role_of(i, eye) : std::uint8_t{0};
+                    roles_[i] = role;
+                    of_cell.entries |= static_cast<std::uint8_t>(((role & entry_role) != 0 ? 1u : 0u) << (i - begin));
+                    if ((role & exit_role) == 0)
                         continue;
-                    if (has_images_)
-                        boxes_.set(i, 0, images_.box(i));
-                    else
-                        set_boxes(i, charts);
-                    if ((roles_[i] & exit_role) != 0) {
-                        const std::uint16_t slab = depth.slab(corners_.points()[corners_.of(i)[0]]);
-                        slabs_[cell] = slabs_[cell] == no_slab ? slab : std::max(slabs_[cell], slab);
-                    }
+                    of_cell.exits |= static_cast<std::uint8_t>(1u << (i - begin));
+                    const std::uint8_t slab = depth.slab(corners.points()[corners.of(i)[0]]);
+                    of_cell.slab = of_cell.slab == no_slab ? slab : std::max(of_cell.slab, slab);
                 }
+                cells_[cell] = of_cell;
             }
         });
+    cover_search_.look_from(eye, roles_, ranks_);
+    relate_touching();
+}
+
+// Of each boundary cell, those that cover a face of it with one of theirs that touches it.
+void BspXmpvo::relate_touching()
+{
+    touching_tests_ = {};
+    listed_in_step_.clear();
+    blocked_.assign(boundary_cells_.count(), not_ready);
+    cover_search_.find_touching(touching_covers_, touching_tests_);
+    for (const auto& part : touching_covers_)
+        for (const CoverSearch::Cover& cover : part) {
+            ++blocked_[boundary_cells_.of_face(cover.front)];
+            ++cells_[boundary_cells_.of_face(cover.back)].front_end;
+        }
+    std::uint32_t count = 0;
+    for (BoundaryCell& cell : cells_) {
+        cell.front_begin = count;
+        count += std::exchange(cell.front_end, count);
+    }
+    fronts_.resize(count);
+    for (const auto& part : touching_covers_)
+        for (const CoverSearch::Cover& cover : part)
+            fronts_[cells_[boundary_cells_.of_face(cover.back)].front_end++] = boundary_cells_.of_face(cover.front);
+    relation_count_ = count;
 }
 
 void BspXmpvo::reset_pending()
 {
-    pending_.reset(boxes_, ranks_, [&](std::uint32_t face) { return (roles_[face] & entry_role) != 0; });
-    listed_in_step_.clear();
-    tests_ = {};
-    relation_count_ = 0;
+    cover_search_.reset_pending();
+    for (CoverSearch::Workspace& workspace : workspaces_)
+        workspace.tests = {};
 }
 
 void BspXmpvo::walk(const glm::dvec4& eye)
 {
     const std::size_t faces = tree_.faces().size();
-    ranks_.last.assign(faces, 0);
-    ranks_.first.assign(faces, 0xffff);
+    ranks_.assign(faces, {0xffff, 0});
     const std::size_t groups = std::max<std::size_t>(tree_.node_count(), 1);
     std::size_t group_count = 0;
     tree_.walk(eye, [&](std::span<const std::uint32_t> group) {
         const auto rank = static_cast<std::uint16_t>(group_count * 65536 / groups);
         for (std::uint32_t face : group) {
-            ranks_.last[face] = rank;
-            ranks_.first[face] = std::min(ranks_.first[face], rank);
+            ranks_[face].last = rank;
+            ranks_[face].first = std::min(ranks_[face].first, rank);
         }
         ++group_count;
     });
 }
 
-void BspXmpvo::set_boxes(std::uint32_t face, const ProjectionCharts& charts)
-{
-    std::array<glm::dvec3, 4> points;
-    const FaceCorners::Corners& corners = corners_.of(face);
-    for (std::size_t k = 0; k < 4; ++k)
-        points[k] = corners_.points()[corners[k]];
-    const auto count = static_cast<std::size_t>(FaceCorners::count(corners));
-    for (int chart = 0; chart < charts.count(); ++chart)
-        if (const auto box = charts.box(std::span(points).first(count), chart))
-            boxes_.set(face, chart, *box);
-}
-
-std::uint8_t BspXmpvo::role(std::uint32_t face, const glm::dvec4& eye) const
+std::uint8_t BspXmpvo::role_of(std::uint32_t face, const glm::dvec4& eye) const
 {
     if (scene_.is_surface())
-        return corners_.seen(face, eye).turn == Sign::zero ? 0 : exit_role | entry_role;
+        return cover_search_.corners().seen(face, eye).turn == Sign::zero ? 0 : exit_role | entry_role;
     const CellFace& of_cell = tree_.faces()[face];
-    return (signs_.exit(of_cell.cell) >> of_cell.face & 1u) != 0    ? exit_role
-           : (signs_.entry(of_cell.cell) >> of_cell.face & 1u) != 0 ? entry_role
-                                                                    : 0;
-}
-
-bool BspXmpvo::obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye, Tests& tests) const
-{
-    ++tests.all;
-    const Sure nearer = heights_.nearer(f, g);
-    if (nearer == Sure::no)
-        return false;
-    const Shared shared = has_images_ ? images_.shared(f, g) : Shared::unknown;
-    if (shared == Shared::nothing)
-        return false;
-    const CellId front = tree_.faces()[f].cell, back = tree_.faces()[g].cell;
-    if (front == back)
-        return false;
-    if (!scene_.is_surface() && scene_.adjacency().joins(front, back))
-        return false; // the face between them carries the relation
-    if (!(nearer == Sure::yes && shared == Shared::area) && !covers_exactly(f, g, eye, tests))
-        return false;
-    const auto& overlapping = scene_.overlapping_cells();
-    const std::pair<CellId, CellId> pair = std::minmax(front, back);
-    return !std::binary_search(overlapping.begin(), overlapping.end(), pair);
-}
-
-bool BspXmpvo::covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye, Tests& tests) const
-{
-    const SeenFace front = corners_.seen(f, eye), back = corners_.seen(g, eye);
-    if (surely_not_nearer(front, back))
-        return false;
-    ++tests.exact;
-    const Overlap overlap = face_overlap(front, back, eye);
-    return overlap == Overlap::nearer || (overlap == Overlap::coincident && !scene_.is_surface());
+    const std::uint32_t exit = signs_.exit(of_cell.cell) >> of_cell.face & 1u;
+    const std::uint32_t entry = signs_.entry(of_cell.cell) >> of_cell.face & 1u;
+    return static_cast<std::uint8_t>(exit * exit_role | entry * entry_role);
 }
 
 template <int row, class State>
@@ -233,18 +192,23 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(ranks_.first) + size_of(ranks_.last) + size_of(is_listed_) + size_of(queue_) +
-           size_of(waiting_head_) + corners_.bytes() + heights_.bytes() + images_.bytes() + size_of(next_) +
-           size_of(slabs_) + size_of(deferred_) + size_of(looking_) + size_of(covered_) + size_of(listed_in_step_) +
-           boxes_.bytes() + pending_.bytes() + size_of(all_relations_.relations) + topological_sort_.bytes();
+           size_of(ranks_) + size_of(cells_) + size_of(fronts_) + size_of(blocked_) +
+           std::accumulate(deferred_.begin(), deferred_.end(), std::size_t{0},
+                           [&](std::size_t sum, const auto& deferred) { return sum + size_of(deferred); }) +
+           size_of(queue_) + cover_search_.bytes() + size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const
 {
     const auto as_double = [](std::size_t count) { return static_cast<double>(count); };
+    CoverSearch::Tests tests = touching_tests_;
+    for (const CoverSearch::Workspace& workspace : workspaces_) {
+        tests.all += workspace.tests.all;
+        tests.exact += workspace.tests.exact;
+    }
     return {{"nodes", as_double(tree_.node_count())}, {"splits", as_double(tree_.split_count())},
-            {"depth", as_double(tree_.depth())},      {"pair tests", as_double(tests_.all)},
-            {"exact tests", as_double(tests_.exact)}, {"relations", as_double(relation_count_)}};
+            {"depth", as_double(tree_.depth())},      {"pair tests", as_double(tests.all)},
+            {"exact tests", as_double(tests.exact)},  {"relations", as_double(relation_count_)}};
 }
 
 std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)

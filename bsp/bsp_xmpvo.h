@@ -2,19 +2,18 @@
 
 #include "bsp/boundary_cells.h"
 #include "bsp/bsp_tree.h"
-#include "bsp/corner_heights.h"
-#include "bsp/face_corners.h"
-#include "bsp/face_images.h"
-#include "bsp/pending_faces.h"
+#include "bsp/cover_search.h"
+#include "bsp/image_boxes.h"
 #include "scene/face_planes.h"
 #include "scene/large_array.h"
 #include "sorting/boundary_relations.h"
-#include "sorting/projection_charts.h"
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace visorder {
@@ -44,12 +43,11 @@ private:
     template <int row, class State>
     friend class BspMerge;
 
-    // Of a face at an eye.
-    static constexpr std::uint8_t exit_role = 1;
-    static constexpr std::uint8_t entry_role = 2;
+    static constexpr std::uint8_t exit_role = CoverSearch::exit_role;
+    static constexpr std::uint8_t entry_role = CoverSearch::entry_role;
 
-    static constexpr std::uint16_t slab_count = 64; // of the scene's depth
-    static constexpr std::uint16_t no_slab = slab_count;
+    static constexpr std::uint8_t slab_count = 64; // of the scene's depth
+    static constexpr std::uint8_t no_slab = slab_count;
     static constexpr std::uint32_t no_cell = 0xffffffffu;
 
     void walk(const glm::dvec4& eye);
@@ -57,16 +55,8 @@ private:
     void look_at_faces(const glm::dvec4& eye);
     // To before any cell is listed.
     void reset_pending();
-    std::uint8_t role(std::uint32_t face, const glm::dvec4& eye) const;
-    void set_boxes(std::uint32_t face, const ProjectionCharts& charts);
-    // How many pairs of faces were tested.
-    struct Tests {
-        std::size_t all = 0;
-        std::size_t exact = 0;
-    };
-    // Whether exit face f covers a part of entry face g, in a pair of cells of which an order exists.
-    bool obstructs(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye, Tests& tests) const;
-    bool covers_exactly(std::uint32_t f, std::uint32_t g, const glm::dvec4& eye, Tests& tests) const;
+    void relate_touching();
+    std::uint8_t role_of(std::uint32_t face, const glm::dvec4& eye) const;
     template <int row, class State>
     bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
@@ -75,36 +65,46 @@ private:
     const Scene& scene_;
     BspTree tree_;
     BoundaryCells boundary_cells_;
-    FaceCorners corners_;
-    CornerHeights heights_;
+    CoverSearch cover_search_;
     FaceSigns signs_;
     LargeArray<std::uint8_t> small_state_;
     LargeArray<std::uint16_t> large_state_;
 
     // A face of the tree each.
     std::vector<std::uint8_t> roles_; // an exit face, an entry face, or both
-    Ranks ranks_;                     // in the walk
-    FaceImages images_;
-    bool has_images_ = false; // from this eye
+    std::vector<Ranks> ranks_;        // in the walk
 
-    // A boundary cell each.
-    std::vector<std::uint8_t> is_listed_;
-    std::vector<std::uint32_t> waiting_head_; // of the cells that wait for it
-    std::vector<std::uint32_t> next_;         // in the list of those that wait for one cell or are in one slab
-    std::vector<std::uint16_t> slabs_;        // of depth, of a cell with exit faces
+    struct BoundaryCell {
+        CellId cell;
+        std::uint32_t first_face;
+        std::uint8_t exits, entries; // bits of its faces, from the first on
+        std::uint8_t slab;           // of depth, if it has exit faces
+        bool is_listed;
+        std::uint32_t waiting_head;           // of the cells that wait for it
+        std::uint32_t next;                   // in the list of those that wait for the same cell
+        std::uint32_t front_begin, front_end; // in fronts_: those that cover it where they touch
+    };
+    std::vector<BoundaryCell> cells_;
+    std::vector<std::uint32_t> fronts_;
+    // Of a boundary cell: how many faces it covers that touch its own and are not listed, and this while the cells
+    // behind its interior exit faces are not all listed.
+    static constexpr std::uint16_t not_ready = 0x8000;
+    std::vector<std::uint16_t> blocked_;
 
-    std::vector<std::uint32_t> deferred_; // of a slab: the ready cells that are still to look for what they cover
+    // Of a slab: the ready cells that are still to look for what they cover.
+    std::array<std::vector<std::uint32_t>, slab_count> deferred_;
 
     // Of one step.
     std::vector<std::uint32_t> looking_;        // the boundary cells that look for what they cover,
-    std::vector<std::uint32_t> covered_;        // and a face that each found
+    std::vector<std::uint32_t> exits_;          // their exit faces in sequence,
+    std::vector<std::uint32_t> covered_;        // and a face that each of these covers
     std::vector<std::uint32_t> listed_in_step_; // boundary cells
 
     LargeArray<CellId> queue_; // of cells that are ready
-    ImageBoxes boxes_;
-    PendingFaces pending_;
 
-    Tests tests_;
+    std::vector<std::vector<CoverSearch::Cover>> touching_covers_;
+    CoverSearch::Tests touching_tests_;
+    std::vector<CoverSearch::Workspace> workspaces_; // of the threads
     std::size_t relation_count_ = 0;
 
     BoundaryRelations all_relations_;

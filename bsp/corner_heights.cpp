@@ -32,7 +32,7 @@ CornerHeights::CornerHeights(const Scene& scene, std::span<const CellFace> faces
         Record& record = records_[i];
         const FaceCorners::Corners& of_face = corners.of(static_cast<std::uint32_t>(i));
         for (std::size_t k = 0; k < of_face.size(); ++k) {
-            const glm::dvec3 unit = (corners.points()[of_face[k]] - planes.origin) * planes.scale;
+            const glm::dvec3 unit = planes.frame.unit(corners.points()[of_face[k]]);
             record.x[k] = static_cast<float>(unit.x);
             record.y[k] = static_cast<float>(unit.y);
             record.z[k] = static_cast<float>(unit.z);
@@ -65,6 +65,14 @@ CornerHeights::Sides CornerHeights::sides(const Record& plane, const Record& cor
     return sides;
 }
 #endif
+
+bool CornerHeights::face_each_other(std::uint32_t f, std::uint32_t g) const
+{
+    const Sides at_f = sides(records_[f], records_[g]);
+    const Sides at_g = sides(records_[g], records_[f]);
+    const FaceCorners::Common common = FaceCorners::common(corners_.of(f), corners_.of(g));
+    return (at_f.outside | common.of_second) == 15u && (at_g.outside | common.of_first) == 15u;
+}
 
 Sure CornerHeights::nearer(std::uint32_t f, std::uint32_t g) const
 {

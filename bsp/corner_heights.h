@@ -24,6 +24,17 @@ public:
     /// g lies weakly on one side of f's plane, or f of g's: f is seen from its cell's side, g from outside its cell.
     Sure nearer(std::uint32_t f, std::uint32_t g) const;
 
+    /// Whether each of two faces with an edge in common has, for sure, all its other corners outside the other one's
+    /// plane.
+    bool face_each_other(std::uint32_t f, std::uint32_t g) const;
+
+    /// Bits of a face's corners that lie for sure outside and inside a plane.
+    struct Sides {
+        unsigned outside, inside;
+    };
+    /// Of face g's corners, with respect to the plane of f.
+    Sides sides(std::uint32_t f, std::uint32_t g) const { return sides(records_[f], records_[g]); }
+
     /// Has fetched what `nearer` reads of a face.
     void prefetch(std::uint32_t face) const
     {
@@ -38,10 +49,6 @@ private:
     struct alignas(64) Record {
         float x[4], y[4], z[4];
         float plane[4];
-    };
-    // Bits of the corners that lie for sure outside and inside a plane.
-    struct Sides {
-        unsigned outside, inside;
     };
     static Sides sides(const Record& plane, const Record& corners);
 

@@ -26,12 +26,19 @@ public:
 
     /// Of a face, in order around it, the first three not on one line. The last of three stands twice.
     const Corners& of(std::uint32_t face) const { return corners_[face]; }
+    /// Has fetched what `of` reads.
+    void prefetch(std::uint32_t face) const { __builtin_prefetch(&corners_[face]); }
+    /// Whether a face was taken.
+    bool has(std::uint32_t face) const { return corners_[face][0] != corners_[face][1]; }
     static int count(const Corners& corners) { return corners[2] == corners[3] ? 3 : 4; }
     /// Bits of the corners of each of two faces that are also corners of the other.
     struct Common {
         unsigned of_first, of_second;
     };
     static Common common(const Corners& first, const Corners& second);
+    /// Of each edge of the first face, from corner i to the next in four bits from 4 i on, those corners of the second
+    /// that are its ends.
+    static unsigned ends_in(const Corners& first, const Corners& second);
 
     /// Where the corners are.
     std::span<const glm::dvec3> points() const { return points_; }
@@ -65,7 +72,31 @@ inline FaceCorners::Common FaceCorners::common(const Corners& first, const Corne
     };
     return {in(a, b), in(b, a)};
 }
+
+inline unsigned FaceCorners::ends_in(const Corners& first, const Corners& second)
+{
+    const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(second.data()));
+    unsigned same = 0; // four bits for each of the first's corners
+    for (unsigned i = 0; i < 4; ++i) {
+        const __m128i equal = _mm_cmpeq_epi32(all, _mm_set1_epi32(static_cast<int>(first[i])));
+        same |= static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(equal))) << 4 * i;
+    }
+    // The last of three corners stands twice, so the first is next to the fourth as well as to the third.
+    const unsigned next = same >> 4 | (same & 15u) << 12;
+    return first[2] == first[3] ? same | (next & 0xffu) | (same & 15u) << 8 : same | next;
+}
 #else
+inline unsigned FaceCorners::ends_in(const Corners& first, const Corners& second)
+{
+    const auto corners = static_cast<unsigned>(count(first));
+    unsigned ends = 0;
+    for (unsigned i = 0; i < corners; ++i)
+        for (unsigned k = 0; k < 4; ++k)
+            ends |= static_cast<unsigned>(second[k] == first[i] || second[k] == first[(i + 1) % corners])
+                    << (4 * i + k);
+    return ends;
+}
+
 inline FaceCorners::Common FaceCorners::common(const Corners& first, const Corners& second)
 {
     Common common{0, 0};

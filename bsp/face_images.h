@@ -29,17 +29,22 @@ public:
     /// Whether the images of two faces share an area. Corners in common are known to be the same.
     Shared shared(std::uint32_t f, std::uint32_t g) const;
 
+    /// The same of two faces that have corner i of f, which is corner k of g, in common and no other. Where they share
+    /// an area, its two sides at that corner are sides of theirs: `sides` has bits of the corners at the other ends, as
+    /// TouchingFaces::Touching, if that is known for sure, else none.
+    struct SharedAngle {
+        Shared shared;
+        unsigned sides;
+    };
+    SharedAngle shared_at(std::uint32_t f, std::size_t i, std::uint32_t g, std::size_t k) const;
+
     std::size_t bytes() const { return images_.capacity() * sizeof(glm::dvec2) + depths_.capacity() * sizeof(double); }
 
 private:
     struct Polygon;
-    struct Separation {
-        bool separated; // an edge has all of the other polygon weakly outside, for sure
-        bool unknown;   // or some edge has not for sure a corner strictly inside
-    };
     Polygon polygon(std::uint32_t face) const;
-    Separation separate(const Polygon& polygon, const Polygon& other) const;
-    double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) const;
+    double turn_bound(double size) const;
+    static Shared outside(const Polygon& polygon, const Polygon& other, unsigned ends, double bound);
 
     const FaceCorners& corners_;
     std::vector<glm::dvec2> images_; // a corner

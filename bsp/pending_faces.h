@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/box.h"
+#include "bsp/image_boxes.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <limits>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <span>
 #include <vector>
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -19,62 +19,39 @@
 
 namespace visorder {
 
-/// The boxes of faces in the charts of one eye, in single precision. Rounding keeps the order of numbers, so boxes that
-/// meet in double precision meet here.
-class ImageBoxes {
-public:
-    struct ImageBox {
-        glm::vec3 min, max;
-    };
-
-    /// Makes room for `faces` faces in `charts` charts; all are absent.
-    void reset(std::size_t faces, int charts);
-    /// Any number of threads may set different faces.
-    void set(std::size_t face, int chart, const Box& box);
-
-    std::size_t face_count() const { return faces_; }
-    int chart_count() const { return charts_; }
-    /// Absent where min.x > max.x.
-    const ImageBox& box(std::size_t face, int chart) const
-    {
-        return boxes_[face * static_cast<std::size_t>(charts_) + static_cast<std::size_t>(chart)];
-    }
-    bool present(std::size_t face, int chart) const { return box(face, chart).min.x <= box(face, chart).max.x; }
-    std::size_t bytes() const { return boxes_.capacity() * sizeof(ImageBox); }
-
-private:
-    std::size_t faces_ = 0;
-    int charts_ = 0;
-    std::vector<ImageBox> boxes_;
-};
-
-/// When the walk of a BSP tree comes to a face first and last: `Ranks::first` and `last` of each face, which grow along
-/// the walk.
-struct Ranks {
-    std::vector<std::uint16_t> first, last;
-};
-
 /// Entry faces by where they are in the image and in the walk of a BSP tree, to find those that an exit face may cover:
-/// a grid over each chart, whose squares list their faces in the order of the walk. A face is pending until its cell is
-/// listed.
+/// a grid over each chart, whose squares list their faces farthest first, which is about how they are removed. A face
+/// is pending until its cell is listed.
 ///
 /// Boxes are kept in 16-bit numbers, to which single precision is mapped without changing its order: what meets there
 /// meets here.
 class PendingFaces {
 public:
-    /// Takes the faces with is_entry(face), all of them pending, and makes ready to search by any other.
+    /// Takes the faces with is_entry(face) that are in some chart, all of them pending, and makes ready to search by
+    /// any other. `boxes` must live, unchanged, as long as that goes on.
     template <class IsEntry>
-    void reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& is_entry);
+    void reset(const ImageBoxes& boxes, IsEntry&& is_entry);
 
     /// The face's cell has been listed.
-    void remove(std::uint32_t face) { is_gone_[face] = 1; }
+    void remove(std::uint32_t face) { is_pending_[face / 64] &= ~(std::uint64_t{1} << face % 64); }
+    bool is_pending(std::uint32_t face) const { return (is_pending_[face / 64] >> face % 64 & 1) != 0; }
 
-    /// Calls visit(face) for each pending one that face `face` may cover, once a chart at most, until it returns false:
-    /// their boxes meet, not all of the entry face is nearer, and the walk came to it before it left `face`. In each
-    /// square those that the walk came to last come first, if there are few. Some time before, it calls prepare(face).
-    /// Any number of threads may search side by side.
-    template <class Prepare, class Visit>
-    void search(std::uint32_t face, Prepare&& prepare, Visit&& visit);
+    /// Faces that were found; keeps its memory when it is cleared.
+    class Found {
+    public:
+        void clear() { count_ = 0; }
+        std::span<std::uint32_t> faces() { return {faces_.data(), count_}; }
+
+    private:
+        friend class PendingFaces;
+        std::vector<std::uint32_t> faces_;
+        std::size_t count_ = 0;
+    };
+
+    /// Adds to `found` each pending one that face `face` may cover, once a chart at most: their boxes meet, not all of
+    /// the entry face is nearer, and the walk came to it before it left `face`. Any number of threads may search side
+    /// by side.
+    void search(std::uint32_t face, Found& found);
 
     std::size_t bytes() const;
 
@@ -84,21 +61,30 @@ private:
 
     using Number = std::uint16_t;
     static constexpr Number most = 0xffff;
-    // Lists are in the order of ranks, to 12 bits.
-    static constexpr int rank_shift = 4;
-    static constexpr std::size_t rank_count = 0x10000 >> rank_shift;
-    static constexpr std::size_t visits_at_once = 16;
+    static constexpr std::size_t depth_steps = 4096;
 
-    // From single precision to numbers, along one axis.
+    // From single precision to numbers: of the two sides of a box along x and y, and of a depth.
     struct Scale {
-        float origin = 0;
-        float per_unit = 0;
-        float most = 0;
+        glm::vec4 origin{0}, per_unit{0}, most{0};
+        float depth_origin = 0, depth_per_unit = 0, depth_most = 0;
 
-        Number number(float x) const
+        std::array<Number, 4> sides(const ImageBoxes::ImageBox& box) const
         {
-            const float place = (x - origin) * per_unit;
-            return static_cast<Number>(place >= most ? most : place > 0 ? place : 0.0f);
+            const glm::vec4 place = (glm::vec4(box.min, box.max) - origin) * per_unit;
+            std::array<Number, 4> numbers;
+            for (int i = 0; i < 4; ++i)
+                numbers[static_cast<std::size_t>(i)] = number(place[i], most[i]);
+            return numbers;
+        }
+        Number depth(float z) const { return number((z - depth_origin) * depth_per_unit, depth_most); }
+
+    private:
+        // By way of the largest integers: those of 16 bits have no conversion of their own.
+        static Number number(float place, float most)
+        {
+            place = place < most ? place : most;
+            place = place > 0 ? place : 0.0f;
+            return static_cast<Number>(static_cast<int>(place));
         }
     };
     // Four sides, a distance and a rank, all so turned that an upper bound can be asked for; see Query.
@@ -116,7 +102,7 @@ private:
     struct Query {
         std::uint64_t from;
         std::array<std::uint64_t, 2> up_to;
-        unsigned last_rank; // as lists are ordered
+        Number most_minus_farthest; // as lists are ordered
 
         bool holds(const Entry& entry) const;
     };
@@ -125,34 +111,24 @@ private:
         Number left, low, right, high;
         Number nearest;
         Number last_rank;
-        bool present = false;
     };
     struct Grid {
         std::uint32_t columns = 1, rows = 1;
         int column_shift = 0, row_shift = 0; // from numbers to squares
-        Scale x, y, depth;
+        Scale scale;
         std::size_t first_list = 0; // of the faces too large for the grid; those of its squares follow
 
-        Entry entry(const ImageBoxes::ImageBox& box, Number first_rank, std::uint32_t face) const
+        Entry entry(const ImageBoxes::ImageBox& box, std::uint32_t face) const
         {
             const auto from_most = [](Number number) { return static_cast<Number>(most - number); };
-            return {x.number(box.min.x),
-                    y.number(box.min.y),
-                    from_most(x.number(box.max.x)),
-                    from_most(y.number(box.max.y)),
-                    from_most(depth.number(box.max.z)),
-                    first_rank,
+            const auto [left, low, right, high] = scale.sides(box);
+            return {left, low, from_most(right), from_most(high), from_most(scale.depth(box.farthest)), box.ranks.first,
                     face};
         }
-        Sought sought(const ImageBoxes::ImageBox& box, Number last_rank) const
+        Sought sought(const ImageBoxes::ImageBox& box) const
         {
-            return {x.number(box.min.x),
-                    y.number(box.min.y),
-                    x.number(box.max.x),
-                    y.number(box.max.y),
-                    depth.number(box.min.z),
-                    last_rank,
-                    true};
+            const auto [left, low, right, high] = scale.sides(box);
+            return {left, low, right, high, scale.depth(box.nearest), box.ranks.last};
         }
         // Of the squares that two faces are both in, only the first counts: that where one of them begins.
         Query query(const Sought& by, std::uint32_t at_column, std::uint32_t at_row) const
@@ -169,7 +145,7 @@ private:
                     {four(static_cast<Number>(by.right - left), static_cast<Number>(by.high - low),
                           static_cast<Number>(most - by.left), static_cast<Number>(most - by.low)),
                      four(static_cast<Number>(most - by.nearest), by.last_rank, most, most)},
-                    unsigned{by.last_rank} >> rank_shift};
+                    static_cast<Number>(most - by.nearest)};
         }
         std::uint32_t column(Number number) const { return std::uint32_t{number} >> column_shift; }
         std::uint32_t row(Number number) const { return std::uint32_t{number} >> row_shift; }
@@ -210,20 +186,18 @@ private:
                 visit(grid.list(column, row));
     }
 
-    template <class Prepare, class Visit>
-    bool look_through(List& list, const Query& query, Prepare&& prepare, Visit&& visit);
-
-    std::size_t charts() const { return grids_.size(); }
+    void look_through(List& list, const Query& query, Found& found) const;
 
     std::vector<Grid> grids_; // a chart
     std::vector<List> lists_;
     std::vector<Entry> entries_;
-    std::vector<std::uint8_t> is_gone_; // a face
-    std::vector<Sought> sought_;        // a face in each chart
+    std::vector<std::uint64_t> is_pending_; // bits, a face each
+    const ImageBoxes* boxes_ = nullptr;
 
     // Of one chart, while it is filled.
+    std::vector<std::uint32_t> present_;
     std::vector<Entry> faces_;
-    std::vector<std::uint32_t> by_rank_; // in faces_
+    std::vector<std::uint32_t> by_depth_; // in faces_, farthest first
 };
 
 #if defined(__SSE2__)
@@ -253,90 +227,72 @@ inline bool PendingFaces::Query::holds(const Entry& entry) const
 #endif
 
 template <class IsEntry>
-void PendingFaces::reset(const ImageBoxes& boxes, const Ranks& ranks, IsEntry&& is_entry)
+void PendingFaces::reset(const ImageBoxes& boxes, IsEntry&& is_entry)
 {
     grids_.clear();
     lists_.clear();
     entries_.clear();
     const auto count = static_cast<std::uint32_t>(boxes.face_count());
-    const auto all_charts = static_cast<std::size_t>(boxes.chart_count());
-    sought_.resize(count * all_charts);
-    for (std::size_t chart = 0; chart < all_charts; ++chart) {
-        const auto box = [&](std::uint32_t face) { return boxes.box(face, static_cast<int>(chart)); };
-        const auto present = [&](std::uint32_t face) { return boxes.present(face, static_cast<int>(chart)); };
+    boxes_ = &boxes;
+    is_pending_.assign((count + 63) / 64, 0);
+    for (int chart = 0; chart < boxes.chart_count(); ++chart) {
+        const auto box = [&](std::uint32_t face) -> const ImageBoxes::ImageBox& { return boxes.box(face, chart); };
         Extent extent;
+        present_.clear();
         for (std::uint32_t face = 0; face < count; ++face)
-            if (is_entry(face) && present(face))
+            if (is_entry(face) && box(face).present()) {
+                present_.push_back(face);
                 extent.add(box(face));
+                is_pending_[face / 64] |= std::uint64_t{1} << face % 64;
+            }
         const Grid& of_chart = grids_.emplace_back(grid(extent, lists_.size()));
         faces_.clear();
-        for (std::uint32_t face = 0; face < count; ++face)
-            if (is_entry(face) && present(face))
-                faces_.push_back(of_chart.entry(box(face), ranks.first[face], face));
-        oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::uint32_t>(0, count, 8192), [&](const auto& range) {
-            for (std::uint32_t face = range.begin(); face < range.end(); ++face)
-                sought_[face * all_charts + chart] =
-                    present(face) ? of_chart.sought(box(face), ranks.last[face]) : Sought{};
-        });
+        for (const std::uint32_t face : present_)
+            faces_.push_back(of_chart.entry(box(face), face));
         fill(of_chart);
     }
-    is_gone_.assign(count, 0);
 }
 
-template <class Prepare, class Visit>
-bool PendingFaces::look_through(List& list, const Query& query, Prepare&& prepare, Visit&& visit)
+inline void PendingFaces::look_through(List& list, const Query& query, Found& found) const
 {
-    const Entry* const entries = entries_.data();
-    const std::uint8_t* const is_gone = is_gone_.data();
     // A hint that threads need not agree on.
     const std::atomic_ref<std::uint32_t> moving_begin(list.begin);
     const std::uint32_t begin = moving_begin.load(std::memory_order_relaxed);
-    std::uint32_t at = begin;
+    if (found.faces_.size() < found.count_ + (list.end - begin))
+        found.faces_.resize(2 * (found.count_ + (list.end - begin)));
     // Without branches on what an entry is like: it is as good as random.
-    std::array<std::uint32_t, visits_at_once> found;
-    std::size_t count = 0;
-    bool go_on = true;
-    const auto visit_found = [&] {
-        std::for_each_n(found.begin(), count, prepare);
-        while (go_on && count > 0)
-            go_on = visit(found[--count]);
-        count = 0;
-    };
-    for (; at < list.end && (entries[at].first_rank >> rank_shift) <= query.last_rank; ++at) {
-        if (count == visits_at_once) [[unlikely]] {
-            visit_found();
-            if (!go_on)
-                return false;
-        }
-        found[count] = entries[at].face;
-        count += static_cast<std::size_t>(query.holds(entries[at]) & (is_gone[entries[at].face] == 0));
+    const Entry* entry = entries_.data() + begin;
+    const Entry* const end = entries_.data() + list.end;
+    std::uint32_t* next = found.faces_.data() + found.count_;
+    std::uint32_t gone = 0, all_gone = 1;
+    for (; entry != end && entry->most_minus_farthest <= query.most_minus_farthest; ++entry) {
+        const std::uint32_t face = entry->face;
+        const std::uint32_t pending = is_pending(face) ? 1 : 0;
+        *next = face;
+        next += static_cast<std::uint32_t>(query.holds(*entry)) & pending;
+        all_gone &= ~pending;
+        gone += all_gone;
     }
-    visit_found();
-    std::uint32_t gone = begin;
-    while (gone < at && is_gone[entries[gone].face] != 0)
-        ++gone;
-    if (gone != begin)
-        moving_begin.store(gone, std::memory_order_relaxed);
-    return go_on;
+    found.count_ = static_cast<std::size_t>(next - found.faces_.data());
+    if (gone != 0)
+        moving_begin.store(begin + gone, std::memory_order_relaxed);
 }
 
-template <class Prepare, class Visit>
-void PendingFaces::search(std::uint32_t face, Prepare&& prepare, Visit&& visit)
+inline void PendingFaces::search(std::uint32_t face, Found& found)
 {
-    for (std::size_t chart = 0; chart < charts(); ++chart) {
-        const Sought by = sought_[face * charts() + chart];
-        if (!by.present)
+    for (std::size_t chart = 0; chart < grids_.size(); ++chart) {
+        const ImageBoxes::ImageBox& box = boxes_->box(face, static_cast<int>(chart));
+        if (!box.present())
             continue;
         const Grid& grid = grids_[chart];
+        const Sought by = grid.sought(box);
         const std::uint32_t left = grid.column(by.left), right = grid.column(by.right);
         const std::uint32_t low = grid.row(by.low), high = grid.row(by.high);
         for (std::uint32_t row = low; row <= high; ++row)
             for (std::uint32_t column = left; column <= right; ++column)
-                if (!look_through(lists_[grid.list(column, row)], grid.query(by, column, row), prepare, visit))
-                    return;
+                look_through(lists_[grid.list(column, row)], grid.query(by, column, row), found);
         // As in the first square: there all count.
-        if (!look_through(lists_[grid.first_list], grid.query(by, left, low), prepare, visit))
-            return;
+        look_through(lists_[grid.first_list], grid.query(by, left, low), found);
     }
 }
 

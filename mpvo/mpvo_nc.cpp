@@ -36,7 +36,7 @@ MpvoNc::MpvoNc(const Scene& scene) : scene_(scene)
         glm::dvec3 sum(0);
         const FaceLoop loop = face_loop(mesh, face.cell, static_cast<int>(face.face));
         for (PointId v : loop)
-            sum += (mesh.points[v] - planes.origin) * planes.scale;
+            sum += planes.frame.unit(mesh.points[v]);
         centres_.emplace_back(sum / static_cast<double>(loop.count));
         owners_.push_back(face.cell);
     }
@@ -53,7 +53,7 @@ void MpvoNc::sort_sources(const View& view)
     // The squared distance, times w: w |c|^2 - 2 c.e + |e|^2 / w, without its last term, which all have in common. What
     // is left neither overflows nor drowns for an eye far away, and along a direction it is the distance. With centres
     // in a cube of half-width 1, and e not above 2, it is above -12; 16 more makes its bits ascend with it.
-    const glm::dvec4 unit = unit_eye(scene_.face_planes(), view.eye);
+    const glm::dvec4 unit = unit_eye(scene_.face_planes().frame, view.eye);
     const glm::dvec3 eye(unit);
 
     keys_.resize(faces.size());

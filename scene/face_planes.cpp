@@ -22,65 +22,21 @@ namespace {
 
 using Range = oneapi::tbb::blocked_range<CellId>;
 
-// Single precision stands for a normal whose components are known to 2^-28 of the largest. With that, unit coordinates
-// and an eye scaled to a largest component near 1, the error of the filter's value n.e + d w is at most
-//   sum |e_i| (2^-25 + 2^-28 [n] + 2^-23.9 [e, rounded twice] + 2^-22 [four roundings of the sum])  <  2^-21 sum |e_i|,
-//   |w| (2^-22.8 [d: |d| <= 3, n's error times |point| <= 1 in three components] + 12 2^-24 [sum] + 3 2^-24 [w])
-//                                                                                                   <  2^-19 |w|,
-// and what underflows is below 2^-140.
-constexpr double normal_accuracy = 0x1p-28;
-
-float error_bound(const glm::dvec3& e, double w)
-{
-    const double bound = 0x1p-21 * (std::abs(e.x) + std::abs(e.y) + std::abs(e.z)) + 0x1p-19 * std::abs(w) + 0x1p-120;
-    return std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity());
-}
-
-struct Plane {
-    float x = 0, y = 0, z = 0, offset = 0;
-};
-
-Plane operator-(const Plane& p)
-{
-    return {-p.x, -p.y, -p.z, -p.offset};
-}
-
-// The plane through three points, from the side that sees them counterclockwise; zeros if it is not known well enough.
-Plane plane_through(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const FacePlanes& planes)
-{
-    const glm::dvec3 p = (b - a) * planes.scale, q = (c - a) * planes.scale;
-    const glm::dvec3 n(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x);
-    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-    const double permanent =
-        std::max({std::abs(p.y * q.z) + std::abs(p.z * q.y), std::abs(p.z * q.x) + std::abs(p.x * q.z),
-                  std::abs(p.x * q.y) + std::abs(p.y * q.x)});
-    // Each of the two products of a component carries three roundings and their difference one more.
-    constexpr double u = std::numeric_limits<double>::epsilon() / 2;
-    const double error = 5 * u * permanent + std::numeric_limits<double>::min();
-    if (!(error <= normal_accuracy / 2 * largest))
-        return {};
-    const glm::dvec3 unit = n / largest;
-    const double offset = -glm::dot(unit, (a - planes.origin) * planes.scale);
-    return {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z),
-            static_cast<float>(offset)};
-}
-
 // The outward plane of a face of a solid cell, from its vertices in ascending order, so that both its cells compute the
 // same numbers.
-Plane face_plane(const Mesh& mesh, const FaceLoop& loop, int orientation, const FacePlanes& planes)
+UnitPlane face_plane(const Mesh& mesh, const FaceLoop& loop, int orientation, const UnitFrame& frame)
 {
     std::array<int, max_face_vertices> order{0, 1, 2, 3};
     std::sort(order.begin(), order.begin() + loop.count,
               [&](int i, int j) { return loop.begin()[i] < loop.begin()[j]; });
     const auto through = [&](int i, int j, int k) {
-        const Plane plane = plane_through(mesh.points[loop.begin()[i]], mesh.points[loop.begin()[j]],
-                                          mesh.points[loop.begin()[k]], planes);
+        const UnitPlane plane =
+            unit_plane(frame, mesh.points[loop.begin()[i]], mesh.points[loop.begin()[j]], mesh.points[loop.begin()[k]]);
         const bool with_the_loop = (i < j) == ((j < k) == (i < k));
         return with_the_loop == (orientation > 0) ? plane : -plane;
     };
-    const Plane plane = through(order[0], order[1], order[2]);
-    const bool known = plane.x != 0 || plane.y != 0 || plane.z != 0;
-    return known || loop.count == 3 ? plane : through(order[1], order[2], order[3]);
+    const UnitPlane plane = through(order[0], order[1], order[2]);
+    return plane.known() || loop.count == 3 ? plane : through(order[1], order[2], order[3]);
 }
 
 void require_planar(const Scene& scene, CellId cell, int face, const FaceLoop& loop)
@@ -109,7 +65,7 @@ void fill_block(const Scene& scene, CellId cell, FacePlanes& planes)
         if (loop.count < 3)
             continue;
         require_planar(scene, cell, face, loop);
-        const Plane plane = face_plane(mesh, loop, orientation, planes);
+        const UnitPlane plane = face_plane(mesh, loop, orientation, planes.frame);
         const auto f = static_cast<std::size_t>(face);
         block[f] = plane.x;
         block[row + f] = plane.y;
@@ -118,24 +74,13 @@ void fill_block(const Scene& scene, CellId cell, FacePlanes& planes)
     }
 }
 
-struct SingleEye {
-    float x, y, z, w;
-    float bound;
-};
-
-SingleEye in_single_precision(const glm::dvec4& eye)
-{
-    return {static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z), static_cast<float>(eye.w),
-            error_bound(glm::dvec3(eye), eye.w)};
-}
-
 struct SideBits {
     std::uint32_t entry;
     std::uint32_t exit;
 };
 
 template <int row_length>
-SideBits filter(const float* block, const SingleEye& eye)
+SideBits filter(const float* block, const UnitEye& eye)
 {
     SideBits bits{0, 0};
     for (int f = 0; f < row_length; ++f) {
@@ -149,7 +94,7 @@ SideBits filter(const float* block, const SingleEye& eye)
 
 #if defined(__SSE2__)
 template <>
-SideBits filter<4>(const float* block, const SingleEye& eye)
+SideBits filter<4>(const float* block, const UnitEye& eye)
 {
     const __m128 value = _mm_add_ps(_mm_add_ps(_mm_add_ps(_mm_mul_ps(_mm_load_ps(block), _mm_set1_ps(eye.x)),
                                                           _mm_mul_ps(_mm_load_ps(block + 4), _mm_set1_ps(eye.y))),
@@ -176,7 +121,7 @@ Sign listed_side(const Mesh& mesh, CellId cell, int face, const glm::dvec4& eye)
 }
 
 template <int row_length>
-void evaluate_range(const Scene& scene, const FacePlanes& planes, const SingleEye& unit, const glm::dvec4& eye,
+void evaluate_range(const Scene& scene, const FacePlanes& planes, const UnitEye& unit, const glm::dvec4& eye,
                     const Range& range, std::uint16_t* bits)
 {
     constexpr std::uint32_t all = (1u << row_length) - 1;
@@ -203,14 +148,7 @@ FacePlanes derive_face_planes(const Scene& scene)
         throw InputError("the triangles of a surface scene bound no cells: it has no face planes");
     FacePlanes planes;
     planes.row_length = scene.adjacency().row_length;
-    const Box& box = scene.bounds();
-    planes.origin = box.middle();
-    const glm::dvec3 half = box.max * 0.5 - box.min * 0.5;
-    const double radius = std::max({half.x, half.y, half.z});
-    // The rounded origin may lie off the middle by an ulp; one power of two more keeps unit coordinates in [-1, 1].
-    planes.scale = radius > 0 ? std::ldexp(1.0, -std::ilogb(radius) - 1) : 1.0;
-    if (!std::isnormal(planes.scale))
-        planes.scale = 1.0;
+    planes.frame = unit_frame(scene.bounds());
     planes.plane.resize(std::size_t{scene.cell_count()} * 4 * static_cast<std::size_t>(planes.row_length));
     const Orientations& orientations = scene.orientations();
     oneapi::tbb::parallel_for(Range(0, scene.cell_count(), 4096), [&](const Range& range) {
@@ -223,26 +161,6 @@ FacePlanes derive_face_planes(const Scene& scene)
             block[k * planes.row_length + static_cast<int>(face)] = 0;
     }
     return planes;
-}
-
-// A positive scale changes no side of a face; a negative weight turns all of them, as the eye's position is then that
-// of
-// (-p, -w).
-glm::dvec4 unit_eye(const FacePlanes& planes, const glm::dvec4& eye)
-{
-    glm::dvec3 e(eye);
-    if (eye.w == 1)
-        e -= planes.origin;
-    else if (eye.w != 0)
-        e = {std::fma(-eye.w, planes.origin.x, e.x), std::fma(-eye.w, planes.origin.y, e.y),
-             std::fma(-eye.w, planes.origin.z, e.z)};
-    e *= planes.scale;
-    const double largest = std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z), std::abs(eye.w)});
-    // A direction so short that scaling rounds it to nothing is left to the exact predicate.
-    if (largest == 0)
-        return glm::dvec4(0);
-    const double scale = std::ldexp(eye.w < 0 ? -1.0 : 1.0, -std::ilogb(largest));
-    return {e * scale, eye.w * scale};
 }
 
 Sign exact_face_side(const Scene& scene, CellId cell, int face, const glm::dvec4& eye)
@@ -277,7 +195,7 @@ Sign exact_face_side(const Scene& scene, CellId cell, int face, const glm::dvec4
 void FaceSigns::evaluate(const Scene& scene, const glm::dvec4& eye)
 {
     const FacePlanes& planes = scene.face_planes();
-    const SingleEye unit = in_single_precision(unit_eye(planes, eye));
+    const UnitEye unit(planes.frame, eye);
     bits_.resize(scene.cell_count());
     oneapi::tbb::parallel_for(Range(0, scene.cell_count(), 16384), [&](const Range& range) {
         if (planes.row_length == 4)

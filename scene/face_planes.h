@@ -3,6 +3,7 @@
 #include "scene/cell_shape.h"
 #include "scene/exact_predicates.h"
 #include "scene/large_array.h"
+#include "scene/unit_planes.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -21,16 +22,11 @@ class Scene;
 struct FacePlanes {
     int row_length;
     LargeArray<float> plane; ///< 4 * row_length a cell
-    glm::dvec3 origin;       ///< planes hold for unit coordinates, (point - origin) * scale, which lie in [-1, 1];
-    double scale;            ///< a power of two
+    UnitFrame frame;         ///< of the planes
 };
 
 /// Throws InputError, naming the cell, where a face is not planar, and for a surface scene.
 FacePlanes derive_face_planes(const Scene& scene);
-
-/// The eye in the unit coordinates of `planes`, rounded, and scaled: its weight is not negative, and its largest
-/// component is near 1. All zeros for a direction too short for that.
-glm::dvec4 unit_eye(const FacePlanes& planes, const glm::dvec4& eye);
 
 /// On which side of the plane of face `face` of `cell` the eye lies: `positive` strictly outside of the cell (an entry
 /// face), `negative` strictly inside (an exit face), `zero` edge-on. Exact. Between a flat and a solid cell the side is

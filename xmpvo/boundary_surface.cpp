@@ -44,7 +44,7 @@ BoundarySurface boundary_surface(const Scene& scene)
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     for (PointId v : used)
-        surface.points.push_back((mesh.points[v] - planes.origin) * planes.scale);
+        surface.points.push_back(planes.frame.unit(mesh.points[v]));
     for (const CellFace& face : faces) {
         const FaceLoop loop = face_loop(mesh, face.cell, static_cast<int>(face.face));
         BoundarySurface::Corners corners;

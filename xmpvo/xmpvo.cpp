@@ -77,7 +77,7 @@ void Xmpvo::sort(const View& view, Order& order)
     validate(view);
     signs_.evaluate(scene_, view.eye);
     face_sides(scene_, signs_, sides_);
-    shoot(unit_eye(scene_.face_planes(), view.eye));
+    shoot(unit_eye(scene_.face_planes().frame, view.eye));
     confirm_pairs(scene_, view.eye, pairs_, relations_);
     topological_sort_.run(scene_, signs_, relations_, order);
 }

@@ -125,7 +125,7 @@ TEST(BspTree, WalksThroughEveryGroupOnceFromAnyEye)
 TEST(BspTree, WalksTheFarSideFirst)
 {
     std::vector<glm::dvec3> corners;
-    for (int i = 0; i < 100; ++i)
+    for (int i = 0; i < 400; ++i)
         corners.insert(corners.end(), {{0, 0, 2 * i}, {9, 0, 2 * i}, {0, 9, 2 * i}});
     const Scene scene(triangles(corners));
     const BspTree tree(scene, 1);
@@ -134,7 +134,7 @@ TEST(BspTree, WalksTheFarSideFirst)
     const auto height = [&](std::uint32_t face) {
         return scene.mesh().points[scene.mesh().cell(tree.faces()[face].cell)[0]].z;
     };
-    for (const double at : {-10.0, 51.0, 73.0, 100.0, 500.0}) {
+    for (const double at : {-10.0, 51.0, 73.0, 400.0, 2000.0}) {
         const Places places(tree, {2, 2, at, 1});
         for (std::uint32_t f = 0; f < tree.faces().size(); ++f)
             for (std::uint32_t g = 0; g < tree.faces().size(); ++g)
@@ -143,8 +143,8 @@ TEST(BspTree, WalksTheFarSideFirst)
                 }
     }
     for (const double weight : {0.0, 1.0}) {
-        Walk from_above = walk(tree, {0, 0, 500, weight});
-        const Walk from_below = walk(tree, {0, 0, -500, weight});
+        Walk from_above = walk(tree, {0, 0, 2000, weight});
+        const Walk from_below = walk(tree, {0, 0, -2000, weight});
         std::reverse(from_above.begin(), from_above.end());
         EXPECT_EQ(from_above, from_below);
         EXPECT_NE(from_above.front(), from_below.back());

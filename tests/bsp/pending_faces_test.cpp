@@ -21,7 +21,7 @@ bool meet_in_image(const Box& a, const Box& b)
 struct Faces {
     std::vector<std::vector<std::optional<Box>>> boxes; // [face][chart]
     int charts;
-    Ranks ranks;
+    std::vector<Ranks> ranks;
 
     std::size_t count() const { return boxes.size(); }
     static bool is_entry(std::uint32_t face) { return face % 5 != 0; }
@@ -33,14 +33,16 @@ struct Faces {
         for (std::size_t face = 0; face < count(); ++face)
             for (int chart = 0; chart < charts; ++chart)
                 if (const auto& box = boxes[face][static_cast<std::size_t>(chart)])
-                    image.set(face, chart, *box);
+                    image.set(face, chart, *box, ranks[face]);
+                else
+                    image.set_absent(face, chart);
         return image;
     }
 
     // Whether they meet in some chart, not all of b is nearer than a, and b comes before a in the walk, at least once.
     bool may_cover(std::uint32_t a, std::uint32_t b) const
     {
-        if (ranks.first[b] > ranks.last[a])
+        if (ranks[b].first > ranks[a].last)
             return false;
         for (std::size_t chart = 0; chart < static_cast<std::size_t>(charts); ++chart)
             if (const auto& f = boxes[a][chart], &g = boxes[b][chart];
@@ -57,8 +59,8 @@ Faces random_faces(Random& random, int count, int charts, int extent, int size)
     const int most_rank = random.below(2) == 0 ? 5 : 0xffff;
     for (int face = 0; face < count; ++face) {
         const int rank = random.from_to(0, most_rank);
-        faces.ranks.first.push_back(static_cast<std::uint16_t>(rank));
-        faces.ranks.last.push_back(static_cast<std::uint16_t>(random.from_to(rank, most_rank)));
+        faces.ranks.push_back(
+            {static_cast<std::uint16_t>(rank), static_cast<std::uint16_t>(random.from_to(rank, most_rank))});
         auto& of_face = faces.boxes.emplace_back();
         for (int chart = 0; chart < charts; ++chart) {
             if (random.below(4) == 0) {
@@ -74,19 +76,18 @@ Faces random_faces(Random& random, int count, int charts, int extent, int size)
     return faces;
 }
 
-// What a search for what `face` may cover visits, in order, up to `most` of them. Each is to be prepared before.
-std::vector<std::uint32_t> found(PendingFaces& pending, std::uint32_t face,
-                                 std::size_t most = std::numeric_limits<std::size_t>::max())
+// What a search for what `face` may cover finds; what was found before stays.
+std::vector<std::uint32_t> found(PendingFaces& pending, std::uint32_t face)
 {
-    std::vector<std::uint32_t> prepared, visited;
-    pending.search(
-        face, [&](std::uint32_t other) { prepared.push_back(other); },
-        [&](std::uint32_t other) {
-            EXPECT_NE(std::find(prepared.begin(), prepared.end(), other), prepared.end());
-            visited.push_back(other);
-            return visited.size() < most;
-        });
-    return visited;
+    PendingFaces::Found found;
+    pending.search(face, found);
+    const std::vector<std::uint32_t> first(found.faces().begin(), found.faces().end());
+    pending.search(face, found);
+    EXPECT_EQ(found.faces().size(), 2 * first.size());
+    EXPECT_TRUE(std::equal(first.begin(), first.end(), found.faces().begin()));
+    EXPECT_TRUE(
+        std::equal(first.begin(), first.end(), found.faces().begin() + static_cast<std::ptrdiff_t>(first.size())));
+    return first;
 }
 
 // Each face once, ascending; expects that none was found more often than in every chart.
@@ -105,7 +106,7 @@ void expect_found(Random& random, const Faces& faces)
 {
     const ImageBoxes image = faces.image();
     PendingFaces pending;
-    pending.reset(image, faces.ranks, Faces::is_entry);
+    pending.reset(image, Faces::is_entry);
     std::vector<bool> is_pending(faces.count());
     for (std::uint32_t face = 0; face < faces.count(); ++face)
         is_pending[face] = Faces::is_entry(face);
@@ -126,12 +127,9 @@ void expect_found(Random& random, const Faces& faces)
             << "face " << face << " at step " << step;
         for (std::uint32_t other : some) {
             EXPECT_TRUE(is_pending[other]);
-            EXPECT_LE(faces.ranks.first[other], faces.ranks.last[face]);
+            EXPECT_LE(faces.ranks[other].first, faces.ranks[face].last);
+            EXPECT_TRUE(pending.is_pending(other));
         }
-        // And as many as are asked for.
-        const std::size_t most = 1 + static_cast<std::size_t>(random.below(3));
-        ASSERT_EQ(found(pending, face, most).size(), std::min(most, all.size()))
-            << "face " << face << " at step " << step;
     }
 }
 
@@ -155,7 +153,7 @@ TEST(PendingFaces, AreNotFoundWhereBoxesAreApart)
         Faces faces = random_faces(random, 200, 1, 20, 2);
         const ImageBoxes image = faces.image();
         PendingFaces pending;
-        pending.reset(image, faces.ranks, Faces::is_entry);
+        pending.reset(image, Faces::is_entry);
         for (std::uint32_t face = 0; face < faces.count(); ++face)
             for (std::uint32_t other : found(pending, face)) {
                 Box a = *faces.boxes[face][0], b = *faces.boxes[other][0];
@@ -180,7 +178,7 @@ TEST(PendingFaces, AreFoundInImagesOfAnyExtent)
         // What single precision cannot tell apart meets as well: nothing that meets may be lost.
         const ImageBoxes image = faces.image();
         PendingFaces pending;
-        pending.reset(image, faces.ranks, [](std::uint32_t face) { return face % 2 == 0; });
+        pending.reset(image, [](std::uint32_t face) { return face % 2 == 0; });
         for (std::uint32_t face = 0; face < faces.count(); ++face) {
             const std::vector<std::uint32_t> some = distinct(found(pending, face), faces.charts);
             for (std::uint32_t other = 0; other < faces.count(); ++other)
@@ -220,7 +218,7 @@ TEST(PendingFaces, AreAllPendingAfterReset)
     PendingFaces pending;
     std::size_t first_found = 0;
     for (int round = 0; round < 2; ++round) {
-        pending.reset(image, faces.ranks, Faces::is_entry);
+        pending.reset(image, Faces::is_entry);
         std::size_t all_found = 0;
         for (std::uint32_t face = 0; face < faces.count(); ++face)
             all_found += found(pending, face).size();
@@ -232,6 +230,19 @@ TEST(PendingFaces, AreAllPendingAfterReset)
             pending.remove(face);
         for (std::uint32_t face = 0; face < faces.count(); ++face)
             EXPECT_TRUE(found(pending, face).empty());
+    }
+}
+
+TEST(ImageBoxes, TellApartWhatCannotBeCovered)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        const Faces faces = random_faces(random, 100, 1 + random.below(6), 6, 3);
+        const ImageBoxes image = faces.image();
+        for (std::uint32_t a = 0; a < faces.count(); ++a)
+            for (std::uint32_t b = 0; b < faces.count(); ++b)
+                EXPECT_EQ(image.may_cover(a, b), faces.may_cover(a, b)) << "faces " << a << " and " << b;
     }
 }
 
@@ -253,32 +264,32 @@ TEST(ImageBoxes, MeetWhereTheyMeetInDoublePrecision)
         const Box a = box(), b = box();
         ImageBoxes image;
         image.reset(2, 1);
-        EXPECT_FALSE(image.present(0, 0));
-        image.set(0, 0, a);
-        image.set(1, 0, b);
-        EXPECT_TRUE(image.present(0, 0));
-        const auto &f = image.box(0, 0), &g = image.box(1, 0);
-        if (a.meets(b)) {
-            EXPECT_TRUE(f.min.x <= g.max.x && g.min.x <= f.max.x && f.min.y <= g.max.y && g.min.y <= f.max.y &&
-                        f.min.z <= g.max.z && g.min.z <= f.max.z);
+        image.set(0, 0, a, {0, 0});
+        image.set(1, 0, b, {0, 0});
+        EXPECT_TRUE(image.box(0, 0).present());
+        if (meet_in_image(a, b) && a.min.z <= b.max.z) {
+            EXPECT_TRUE(image.may_cover(0, 1));
         }
     }
 }
 
-TEST(ImageBoxes, AreAbsentAfterReset)
+TEST(ImageBoxes, AreAbsentWhereTheyAreSetSo)
 {
     ImageBoxes image;
     image.reset(4, 3);
-    image.set(2, 1, Box{glm::dvec3(0), glm::dvec3(1)});
-    EXPECT_TRUE(image.present(2, 1));
-    EXPECT_FALSE(image.present(2, 0));
-    EXPECT_FALSE(image.present(1, 1));
-    EXPECT_EQ(image.chart_count(), 3);
-    image.reset(4, 2);
     for (std::size_t face = 0; face < 4; ++face)
-        for (int chart = 0; chart < 2; ++chart)
-            EXPECT_FALSE(image.present(face, chart));
-    EXPECT_EQ(image.chart_count(), 2);
+        for (int chart = 0; chart < 3; ++chart)
+            image.set_absent(face, chart);
+    image.set(2, 1, Box{glm::dvec3(0), glm::dvec3(1)}, {1, 2});
+    EXPECT_TRUE(image.box(2, 1).present());
+    EXPECT_FALSE(image.box(2, 0).present());
+    EXPECT_FALSE(image.box(1, 1).present());
+    EXPECT_TRUE(image.may_cover(2, 2));
+    EXPECT_FALSE(image.may_cover(2, 1));
+    EXPECT_FALSE(image.may_cover(1, 2));
+    EXPECT_EQ(image.chart_count(), 3);
+    image.set_absent(2, 1);
+    EXPECT_FALSE(image.box(2, 1).present());
 }
 
 } // namespace

@@ -1,7 +1,10 @@
+#include "bsp/bsp_xmpvo.h"
 #include "bsp/corner_heights.h"
 #include "bsp/face_corners.h"
 #include "bsp/face_images.h"
+#include "bsp/touching_faces.h"
 
+#include "checking/order_checker.h"
 #include "scene/face_loop.h"
 #include "scene/face_overlap.h"
 #include "scene/face_planes.h"
@@ -11,9 +14,13 @@
 #include "tests/checking/small_scenes.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +33,11 @@ struct Answers {
     std::size_t sides_known = 0;
     std::size_t areas_known = 0;
     std::size_t with_images = 0; // pairs
+    std::size_t at_corners = 0;  // of these, with one corner in common
+    std::size_t corners_known = 0;
+    std::size_t sides_of_shared = 0; // of what they share, known
+    std::size_t touching = 0;        // pairs
+    std::size_t covering = 0;        // of these, known to
 };
 
 class QuickTests {
@@ -36,6 +48,7 @@ public:
           has_area_(with_area()),
           corners_(scene.mesh(), faces_, has_area_),
           heights_(scene, faces_, corners_),
+          touching_(corners_, heights_, [this](std::uint32_t f, std::uint32_t g) { return heights_.nearer(f, g); }),
           images_(corners_)
     {
     }
@@ -93,6 +106,7 @@ private:
         if (nearer == Sure::yes) {
             EXPECT_TRUE(overlap == Overlap::disjoint || overlap == Overlap::nearer);
         }
+        expect_right_touching(f, g, overlap, nearer, answers);
         if (!has_images)
             return;
         ++answers.with_images;
@@ -103,6 +117,63 @@ private:
         }
         if (overlap != Overlap::disjoint) {
             EXPECT_TRUE(meet(images_.box(f), images_.box(g)));
+        }
+        if (const TouchingFaces::Touching* pair = find_touching(f, g); pair != nullptr && pair->at_one_corner)
+            expect_right_angle(f, *pair, overlap, answers);
+    }
+
+    const TouchingFaces::Touching* find_touching(std::uint32_t f, std::uint32_t g) const
+    {
+        for (const TouchingFaces::Touching& pair : touching_.of(f))
+            if (pair.face == g)
+                return &pair;
+        return nullptr;
+    }
+
+    void expect_right_touching(std::uint32_t f, std::uint32_t g, Overlap overlap, Sure nearer, Answers& answers) const
+    {
+        const FaceCorners::Corners &of_f = corners_.of(f), &of_g = corners_.of(g);
+        const unsigned common = FaceCorners::common(of_f, of_g).of_first;
+        const TouchingFaces::Touching* const pair = find_touching(f, g);
+        EXPECT_EQ(touching_.holds(f, g), common != 0);
+        EXPECT_EQ(pair != nullptr, common != 0 && nearer != Sure::no);
+        if (pair == nullptr)
+            return;
+        ++answers.touching;
+        EXPECT_EQ(of_f[pair->at], of_g[pair->other_at]);
+        std::vector<std::uint32_t> both;
+        for (std::uint32_t corner : std::span(of_f).first(static_cast<std::size_t>(FaceCorners::count(of_f))))
+            if (std::find(of_g.begin(), of_g.end(), corner) != of_g.end())
+                both.push_back(corner);
+        EXPECT_EQ(pair->at_one_corner, both.size() == 1);
+        EXPECT_EQ(pair->known == TouchingFaces::Known::nearer, nearer == Sure::yes && !covers(*pair));
+        if (covers(*pair)) {
+            ++answers.covering;
+            EXPECT_EQ(overlap, Overlap::nearer);
+        }
+    }
+
+    static bool covers(const TouchingFaces::Touching& pair) { return pair.known == TouchingFaces::Known::covers; }
+
+    void expect_right_angle(std::uint32_t f, const TouchingFaces::Touching& pair, Overlap overlap,
+                            Answers& answers) const
+    {
+        ++answers.at_corners;
+        const auto [shared, sides] = images_.shared_at(f, pair.at, pair.face, pair.other_at);
+        answers.corners_known += shared != Shared::unknown;
+        if (shared != Shared::unknown) {
+            EXPECT_EQ(shared == Shared::nothing, overlap == Overlap::disjoint);
+        }
+        if (sides == 0)
+            return;
+        ++answers.sides_of_shared;
+        EXPECT_EQ(shared, Shared::area);
+        EXPECT_EQ(std::popcount(sides), 2);
+        if ((sides & ~unsigned{pair.outside}) == 0) {
+            EXPECT_EQ(overlap, Overlap::nearer);
+        }
+        if ((sides & ~unsigned{pair.inside}) == 0) {
+            EXPECT_EQ(overlap, Overlap::farther);
         }
     }
 
@@ -116,6 +187,7 @@ private:
     std::vector<std::uint8_t> has_area_;
     FaceCorners corners_;
     CornerHeights heights_;
+    TouchingFaces touching_;
     FaceImages images_;
 };
 
@@ -148,6 +220,8 @@ TEST(QuickTests, AreRightInSmallScenes)
     // Corners at integers: many planes hold corners of other faces, and many corners lie on others' edges.
     EXPECT_GT(3 * answers.sides_known, answers.pairs);
     EXPECT_GT(2 * answers.areas_known, answers.with_images);
+    EXPECT_GT(answers.touching, 1000u);
+    EXPECT_GT(answers.covering, 100u);
 }
 
 TEST(QuickTests, DecideNearlyAllInGeneralPosition)
@@ -164,7 +238,10 @@ TEST(QuickTests, DecideNearlyAllInGeneralPosition)
         EXPECT_GT(20 * answers.areas_known, 19 * answers.with_images) << specification;
         if (!scene.is_surface()) {
             EXPECT_GT(2 * answers.sides_known, answers.pairs) << specification;
+            EXPECT_GT(answers.covering, 0u) << specification;
         }
+        EXPECT_GE(20 * answers.corners_known, 19 * answers.at_corners) << specification;
+        EXPECT_GE(answers.corners_known, answers.sides_of_shared) << specification;
     }
 }
 
@@ -187,6 +264,45 @@ TEST(QuickTests, AreRightOfScenesOfAnySizeAnywhere)
             }
             EXPECT_GT(answers.pairs, 0u);
         }
+}
+
+// Of the faces around a corner with too many of them, there would be too many pairs.
+TEST(TouchingFaces, LeavesCrowdedCornersOut)
+{
+    Mesh mesh;
+    mesh.points = {{0, 0, 0}, {0, 0, 1}};
+    constexpr std::uint32_t around = 120;
+    for (std::uint32_t i = 0; i < around; ++i) {
+        const double a = 6.28318530717958648 * i / around;
+        mesh.points.emplace_back(std::cos(a), std::sin(a), i % 2 == 0 ? 0.25 : -0.25);
+    }
+    for (std::uint32_t i = 0; i + 1 < around; ++i)
+        mesh.add(CellShape::tetrahedron, std::array{0u, 2 + i, 3 + i, 1u});
+    const Scene scene(mesh);
+    const std::vector<CellFace>& faces = scene.boundary().faces;
+    const FaceCorners corners(scene.mesh(), faces, std::vector<std::uint8_t>(faces.size(), 1));
+    const CornerHeights heights(scene, faces, corners);
+    const TouchingFaces touching(corners, heights, [](std::uint32_t, std::uint32_t) { return Sure::unknown; });
+    std::size_t pairs = 0;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        pairs += touching.of(f).size();
+        for (const TouchingFaces::Touching& pair : touching.of(f))
+            EXPECT_TRUE(touching.holds(f, pair.face));
+        for (std::uint32_t g = 0; g < faces.size(); ++g) {
+            const auto of_f = touching.of(f);
+            EXPECT_EQ(f != g && touching.holds(f, g),
+                      std::any_of(of_f.begin(), of_f.end(), [&](const auto& pair) { return pair.face == g; }))
+                << f << " and " << g;
+        }
+    }
+    EXPECT_GT(pairs, faces.size());
+    EXPECT_LT(pairs, 10 * faces.size());
+    const OrderChecker checker(scene);
+    BspXmpvo sorter(scene, 1);
+    for (const NamedView& view : random_views(scene, 5, 6, {64, 64})) {
+        SCOPED_TRACE(reproduce("fan", view.view.eye));
+        expect_right_order(checker, sorter, view.view.eye);
+    }
 }
 
 TEST(FaceCorners, AreDistinctAndTheFirstThreeSpanThePlane)
