@@ -1,6 +1,8 @@
 // VTK's projected tetrahedra beside visorder's, in one run: the same cells, transfer function, cameras and software
 // OpenGL, sorting included: every integrator, and every projector. Prints seconds a frame and the error against the
-// reference ray caster. VTK blends in its window's 8 bits a channel, visorder in 32. VTK needs a window:
+// reference ray caster. They take turns, so that what else the machine does disturbs all alike: in each round, each
+// draws from every camera, and of each camera the least time over the rounds counts. VTK blends in its window's 8 bits
+// a channel, visorder in 32. VTK needs a window:
 //
 //     xvfb-run -s "-screen 0 1024x1024x24" visorder_vtk_projected_tetrahedra MESH [TRANSFER [SORTER]]
 //
@@ -24,10 +26,13 @@
 #include <ctime>
 #include <exception>
 #include <fmt/format.h>
-#include <future>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
+#include <numeric>
+#include <oneapi/tbb/task_arena.h>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 #include <vtkAutoInit.h>
@@ -54,7 +59,8 @@ using namespace visorder;
 using Clock = std::chrono::steady_clock;
 
 constexpr int image_side = 512;
-constexpr int frames = 12;
+constexpr int cameras_timed = 12;
+constexpr int rounds = 5;
 
 vtkNew<vtkUnstructuredGrid> grid_of(const Mesh& mesh)
 {
@@ -124,36 +130,29 @@ Camera camera_of(vtkCamera& camera)
     return result;
 }
 
-// Of one frame: the least by the clock, and the mean of all processors together, which other work on the machine
-// disturbs less.
-struct Taken {
-    double seconds;
-    double processor_seconds;
-};
-
-template <class Frame>
-Taken taken_by(Frame&& frame)
-{
-    double least = std::numeric_limits<double>::infinity();
-    const std::clock_t processor_start = std::clock();
-    for (int i = 1; i <= frames; ++i) {
-        const Clock::time_point start = Clock::now();
-        frame(i);
-        least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
+// Of frames from several cameras, in several rounds.
+class Times {
+public:
+    template <class Frame>
+    void take(Frame&& frame)
+    {
+        const std::clock_t processor_start = std::clock();
+        for (std::size_t camera = 0; camera < least_.size(); ++camera) {
+            const Clock::time_point start = Clock::now();
+            frame(camera);
+            least_[camera] = std::min(least_[camera], std::chrono::duration<double>(Clock::now() - start).count());
+        }
+        processor_seconds_ =
+            std::min(processor_seconds_, static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC);
     }
-    return {least, static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC / frames};
-}
 
-struct Frames {
-    RenderOptions options;
-    Image first;
-    Taken taken; // by one of the others
-    std::size_t triangles;
-};
+    /// Of a frame, in the mean over cameras of their least; and of all processors together, in the best round.
+    double seconds() const { return std::accumulate(least_.begin(), least_.end(), 0.0) / cameras_timed; }
+    double processor_seconds() const { return processor_seconds_ / cameras_timed; }
 
-struct OurFrames {
-    std::string gl_renderer;
-    std::vector<Frames> all;
+private:
+    std::vector<double> least_ = std::vector<double>(cameras_timed, std::numeric_limits<double>::infinity());
+    double processor_seconds_ = std::numeric_limits<double>::infinity();
 };
 
 // By the default projector with every integrator, and then by the others with the default integrator.
@@ -172,26 +171,85 @@ std::vector<RenderOptions> variants()
     return result;
 }
 
-OurFrames our_frames(const Scene& scene, const TransferFunction& function, const std::string& sorter_name,
-                     const std::vector<Camera>& cameras)
-{
-    const Context context;
-    const auto sorter = make_sorter(sorter_name, scene);
-    OurFrames result{context.renderer(), {}};
-    for (const RenderOptions& options : variants()) {
-        ProjectionRenderer renderer(context, scene, function, options);
-        Order order;
-        const auto frame = [&](const Camera& from) {
-            const View view = view_of(from, {image_side, image_side});
-            sorter->sort(view, order);
-            return renderer.draw(view, order);
-        };
-        Image first = frame(cameras.front());
-        const Taken taken = taken_by([&](int i) { frame(cameras[static_cast<std::size_t>(i)]); });
-        result.all.push_back({options, std::move(first), taken, renderer.statistics().triangles});
+// VTK's side. Its window is current on the thread that uses it, and its kind of context does not make way for another.
+class Peer {
+public:
+    Peer(const Mesh& mesh, const TransferFunction& function, double unit_distance)
+    {
+        mapper_->SetInputData(grid_of(mesh));
+        volume_->SetMapper(mapper_);
+        set_function(*volume_->GetProperty(), function, unit_distance);
+        renderer_->AddVolume(volume_);
+        renderer_->SetBackground(0, 0, 0);
+        window_->SetOffScreenRendering(1);
+        window_->SetMultiSamples(0);
+        window_->SetSize(image_side, image_side);
+        window_->AddRenderer(renderer_);
+        renderer_->ResetCamera();
+        vtkCamera& camera = *renderer_->GetActiveCamera();
+        camera.Azimuth(30);
+        camera.Elevation(20);
+        renderer_->ResetCameraClippingRange();
+        window_->Render();
     }
-    return result;
-}
+
+    /// The present one, and then others around the volume.
+    std::vector<Camera> cameras()
+    {
+        vtkCamera& camera = *renderer_->GetActiveCamera();
+        std::vector<Camera> result{camera_of(camera)};
+        for (int i = 0; i < cameras_timed; ++i) {
+            camera.Azimuth(7);
+            result.push_back(camera_of(camera));
+        }
+        return result;
+    }
+
+    void draw(const Camera& from)
+    {
+        vtkCamera& camera = *renderer_->GetActiveCamera();
+        camera.SetPosition(&from.position.x);
+        camera.SetFocalPoint(&from.focal_point.x);
+        camera.SetViewUp(&from.up.x);
+        renderer_->ResetCameraClippingRange();
+        window_->Render();
+    }
+
+    Image image() { return vtk_image(*window_); }
+
+private:
+    vtkNew<vtkProjectedTetrahedraMapper> mapper_;
+    vtkNew<vtkVolume> volume_;
+    vtkNew<vtkRenderer> renderer_;
+    vtkNew<vtkRenderWindow> window_;
+};
+
+class Ours {
+public:
+    Ours(const Scene& scene, const TransferFunction& function, const std::string& sorter_name)
+        : sorter_(make_sorter(sorter_name, scene))
+    {
+        for (const RenderOptions& options : variants())
+            renderers_.push_back(std::make_unique<ProjectionRenderer>(context_, scene, function, options));
+    }
+
+    std::size_t count() const { return renderers_.size(); }
+    const std::string& gl_renderer() const { return context_.renderer(); }
+
+    Image draw(std::size_t variant, const Camera& from)
+    {
+        const View view = view_of(from, {image_side, image_side});
+        sorter_->sort(view, order_);
+        return renderers_[variant]->draw(view, order_);
+    }
+    std::size_t triangles(std::size_t variant) const { return renderers_[variant]->statistics().triangles; }
+
+private:
+    Context context_;
+    std::unique_ptr<Sorter> sorter_;
+    Order order_;
+    std::vector<std::unique_ptr<ProjectionRenderer>> renderers_;
+};
 
 int run(int argc, char** argv)
 {
@@ -204,56 +262,59 @@ int run(int argc, char** argv)
         most = std::max(most, point.extinction);
     const std::vector<MediumPoint> medium = medium_of(function);
 
-    const vtkNew<vtkProjectedTetrahedraMapper> mapper;
-    mapper->SetInputData(grid_of(scene.mesh()));
-    const vtkNew<vtkVolume> volume;
-    volume->SetMapper(mapper);
-    set_function(*volume->GetProperty(), function, 1 / most);
-    const vtkNew<vtkRenderer> vtk_renderer;
-    vtk_renderer->AddVolume(volume);
-    vtk_renderer->SetBackground(0, 0, 0);
-    const vtkNew<vtkRenderWindow> window;
-    window->SetOffScreenRendering(1);
-    window->SetMultiSamples(0);
-    window->SetSize(image_side, image_side);
-    window->AddRenderer(vtk_renderer);
-    vtk_renderer->ResetCamera();
-    vtkCamera& camera = *vtk_renderer->GetActiveCamera();
-    camera.Azimuth(30);
-    camera.Elevation(20);
-    vtk_renderer->ResetCameraClippingRange();
-    window->Render();
-    const Image from_vtk = vtk_image(*window);
-    std::vector<Camera> cameras{camera_of(camera)};
-    const Taken vtk_taken = taken_by([&](int) {
-        camera.Azimuth(7);
-        vtk_renderer->ResetCameraClippingRange();
-        window->Render();
-        cameras.push_back(camera_of(camera));
-    });
+    Peer peer(scene.mesh(), function, 1 / most);
+    const std::vector<Camera> cameras = peer.cameras();
+    const auto from = [&](std::size_t timed) -> const Camera& { return cameras[timed + 1]; };
+    peer.draw(cameras.front());
+    const Image from_vtk = peer.image();
 
     const std::string sorter_name = argc > 3 ? argv[3] : "auto";
-    // VTK's window is current on this thread, and its kind of context does not make way for another.
-    const OurFrames ours =
-        std::async(std::launch::async, [&] { return our_frames(scene, function, sorter_name, cameras); }).get();
+    const std::vector<RenderOptions> options = variants();
+    std::vector<Image> first;
+    std::vector<std::size_t> triangles;
+    Times vtk_times;
+    std::vector<Times> times(options.size());
+    std::string gl_renderer;
+    // On a thread of its own all the time, for its context stays current there.
+    std::unique_ptr<Ours> ours;
+    oneapi::tbb::task_arena arena;
+    const auto ours_do = [&](auto&& work) { std::thread([&] { arena.execute(work); }).join(); };
+    ours_do([&] {
+        ours = std::make_unique<Ours>(scene, function, sorter_name);
+        gl_renderer = ours->gl_renderer();
+        for (std::size_t i = 0; i < options.size(); ++i)
+            first.push_back(without_alpha(ours->draw(i, cameras.front())));
+    });
+    for (int round = 0; round < rounds; ++round) {
+        vtk_times.take([&](std::size_t camera) { peer.draw(from(camera)); });
+        ours_do([&] {
+            for (std::size_t i = 0; i < options.size(); ++i)
+                times[i].take([&](std::size_t camera) { ours->draw(i, from(camera)); });
+        });
+    }
+    ours_do([&] {
+        for (std::size_t i = 0; i < options.size(); ++i)
+            triangles.push_back(ours->triangles(i));
+        ours.reset();
+    });
 
     const Image truth =
         without_alpha(image_of(cast_rays(scene, medium, view_of(cameras.front(), {image_side, image_side}))));
     write_png(from_vtk, "vtk_projected_tetrahedra.png", {glm::vec3(0), true});
-    write_png(without_alpha(ours.all.back().first), "visorder_projected_tetrahedra.png", {glm::vec3(0), true});
+    write_png(first.back(), "visorder_projected_tetrahedra.png", {glm::vec3(0), true});
     fmt::print("{} cells, {} x {} pixels, {}, sorted by {}, on {}\n", scene.cell_count(), image_side, image_side,
-               transfer, sorter_name, ours.gl_renderer);
+               transfer, sorter_name, gl_renderer);
     fmt::print("{:<34} {:>9} {:>10} {:>7} {:>14} {:>10} {:>9}\n", "", "s a frame", "processors", "times",
                "of a processor", "triangles", "RMSE");
-    const auto report = [&](const std::string& title, const Taken& taken, std::size_t triangles, const Image& image) {
-        fmt::print("{:<34} {:>9.3f} {:>10.3f} {:>7.2f} {:>14.2f} {:>10} {:>9.2e}\n", title, taken.seconds,
-                   taken.processor_seconds, vtk_taken.seconds / taken.seconds,
-                   vtk_taken.processor_seconds / taken.processor_seconds, triangles, rmse(image, truth));
+    const auto report = [&](const std::string& title, const Times& taken, std::size_t drawn, const Image& image) {
+        fmt::print("{:<34} {:>9.3f} {:>10.3f} {:>7.2f} {:>14.2f} {:>10} {:>9.2e}\n", title, taken.seconds(),
+                   taken.processor_seconds(), vtk_times.seconds() / taken.seconds(),
+                   vtk_times.processor_seconds() / taken.processor_seconds(), drawn, rmse(image, truth));
     };
-    report("vtkProjectedTetrahedraMapper", vtk_taken, 0, from_vtk);
-    for (const Frames& one : ours.all)
-        report(fmt::format("{}, {}", name(one.options.projector), name(one.options.integrator)), one.taken,
-               one.triangles, without_alpha(one.first));
+    report("vtkProjectedTetrahedraMapper", vtk_times, 0, from_vtk);
+    for (std::size_t i = 0; i < options.size(); ++i)
+        report(fmt::format("{}, {}", name(options[i].projector), name(options[i].integrator)), times[i], triangles[i],
+               first[i]);
     return 0;
 }
 

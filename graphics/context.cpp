@@ -124,6 +124,11 @@ Context::~Context()
     }
 }
 
+bool Context::is_software() const
+{
+    return renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos;
+}
+
 GlPlatform Context::platform() const
 {
     return platform_context_->platform();

@@ -53,6 +53,8 @@ public:
     GlPlatform platform() const; ///< egl or osmesa
     const std::string& renderer() const { return renderer_; }
     const std::string& version() const { return version_; }
+    /// Whether the processor draws: Mesa's llvmpipe or softpipe.
+    bool is_software() const;
 
     /// The largest width or height of an image that can be drawn.
     int largest_size() const { return largest_size_; }

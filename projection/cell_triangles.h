@@ -1,7 +1,7 @@
 #pragma once
 
+#include "projection/record_sink.h"
 #include "scene/cell_shape.h"
-#include "scene/large_array.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,10 +29,8 @@ public:
     /// vertices are a third of record_bytes() apart. 0: it reads the records as a storage buffer.
     virtual int vertex_attributes() const = 0;
 
-    /// Replaces `into` by the records of the cells (inner numbering) in their sequence, and returns how many; `into`
-    /// may be longer. Cells set apart get none, and are listed.
-    virtual std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
-                             std::vector<CellApart>& apart) const = 0;
+    /// The records of the cells (inner numbering) in their sequence. Cells set apart get none, and are listed.
+    virtual void make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const = 0;
 };
 
 } // namespace visorder

@@ -85,35 +85,46 @@ vec4 light_of(float front, float back, float len, vec4 front_optics, vec4 back_o
 // With u half the difference of extinctions between its ends times its length,
 //     M - (1 + E) / 2 = sqrt(E) (integral from -1/2 to 1/2 of exp(u (1/4 - v^2) - t v) dv - cosh(t / 2)),
 // of which the second factor is even in t. The polynomials are least-squares fits, weighted for an even error over
-// -1/4 < t < 1.15, |u| < |t|: 3e-8 t for 1 - E, 3e-7 t for the other.
+// -1/4 < t < 1.15, |u| < |t|: 3e-8 t for 1 - E, 3e-7 t for the other; and one through Chebyshev's points for sqrt(E).
+//
+// `backwards` is 1 / run. Written for renderers that have no branches and no min and max that are sure of what is no
+// number, and so that no long chain of operations waits for each other.
 constexpr const char* optical_pass_text = R"(
-vec4 light_of_pass(float one, float run, float len, bool swapped)
+flat in float a_part; // of the way
+
+float in_unit(float x)
 {
-    float inverse = 1.0 / (abs(run) < 1e-30 ? 1e-30 : run);
-    float first = (window.x - one) * inverse;
-    float second = (window.y - one) * inverse;
-    bool one_way = window.w < 0.0;
-    float begin = clamp(one_way ? first : min(first, second), window.z, abs(window.w));
-    float end = clamp(one_way ? second : max(first, second), window.z, abs(window.w));
-    float share = max(end - begin, 0.0);
-    float middle = one + 0.5 * (begin + end) * run;
-    run *= swapped ? -share : share;
+    return clamp(x, 0.0, 1.0);
+}
+
+vec4 light_of_pass(float one, float run, float backwards, float len, float direction)
+{
+    // In parts of the way, from where this one begins.
+    float parts = window.z;
+    bool whole = window.x == window.y;
+    float begin = in_unit((window.x - one) * (backwards * parts) - window.w);
+    float end = in_unit((window.y - one) * (backwards * parts) - window.w);
+    begin = whole ? 0.0 : begin;
+    end = whole ? 1.0 : end;
+    float share = in_unit(end - begin) * a_part;
+    float middle = one + (0.5 * (begin + end) + window.w) * a_part * run;
+    run *= direction * share;
     len *= share;
 
-    // More is only in cells that are opaque many times over (see find_optical_passes), and stays opaque.
-    float extinction = medium.x + middle * medium_rise.x;
-    len = len * extinction > 1.15 ? 1.15 / extinction : len;
-    float t = len * extinction;
+    float t = len * (medium.x + middle * medium_rise.x);
     float u = 0.5 * len * run * medium_rise.x;
+    // More is only in cells that are opaque many times over (see find_optical_passes), and stays opaque.
+    u = t > 1.15 ? 0.0 : u;
+    t = t > 1.15 ? 1.15 : t;
     float tt = t * t;
-    // Grouped so that no long chain of operations waits for each other.
     float opacity = t * ((1.0 - 0.5 * t) + tt * ((0.166668077 - 0.0416685826 * t) +
                     tt * ((0.00831463206 - 0.00133093150 * t) + tt * 0.000137367953)));
+    float half_through = (1.0 - 0.500020018 * t) + tt * ((0.12498342 - 0.0205256859 * t) + tt * 0.00209010653);
     float even = -0.0833321983 + tt * (-0.00208585873 - tt * 1.74433759e-5);
     float odd = 0.166666691 + tt * (0.00416676258 + tt * 3.64243757e-5) +
                 u * (0.0166643457 + tt * 0.000302037259 +
                 u * (0.00119012823 + tt * 2.07597860e-5 + u * 6.73259096e-5));
-    float colour_share = opacity * middle + run * sqrt(max(1.0 - opacity, 0.0)) * (tt * even + u * odd);
+    float colour_share = opacity * middle + run * half_through * (tt * even + u * odd);
     return vec4(medium.yzw * opacity + medium_rise.yzw * colour_share, opacity);
 }
 )";

@@ -57,22 +57,24 @@ void find_optical_passes(const OpticalPieces& pieces, const CellWays& ways, std:
     const int parts = depth <= most_depth ? 1 : static_cast<int>(depth < most_parts ? std::ceil(depth) : most_parts);
     const auto count = last - first + 1;
     const bool both = count > 1 && ways.rises && ways.falls;
+    const bool only_falls = ways.falls && !ways.rises;
     for (int k = 0; k < parts; ++k) {
         const int part = ways.swapped ? k : parts - 1 - k;
-        const glm::vec2 shares = glm::vec2(part, part + 1) / static_cast<float>(parts);
         for (const bool rising : {true, false}) {
-            if (!both && rising == (ways.falls && !ways.rises))
+            if (!both && rising == only_falls)
                 continue;
             for (std::ptrdiff_t i = 0; i < count; ++i) {
                 const Piece& piece = rising != ways.swapped ? last[-i] : first[i];
                 if (!(most_extinction(piece, ways) > 0))
                     continue;
                 OpticalPass pass = pass_through(piece, ways.reference);
-                float low = &piece == first ? -beyond : piece.begin - ways.reference;
-                float high = &piece == last ? beyond : piece.end - ways.reference;
-                if (both && !rising)
-                    std::swap(low, high);
-                pass.window = {low, high, shares.x, both ? -shares.y : shares.y};
+                pass.window = {0, 0, parts, part};
+                if (count > 1) {
+                    const float low = &piece == first ? -beyond : piece.begin - ways.reference;
+                    const float high = &piece == last ? beyond : piece.end - ways.reference;
+                    pass.window.x = rising ? low : high;
+                    pass.window.y = rising ? high : low;
+                }
                 passes.push_back(pass);
             }
         }

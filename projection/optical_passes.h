@@ -13,9 +13,9 @@ struct OpticalPass {
     glm::vec4 medium; ///< extinction and colour at the reference
     glm::vec4 rise;   ///< their rise per unit of the scalar
 
-    /// Of a ray's way, what lies between the first two as scalars and between the others as shares of the way from
-    /// Thickness' one side to the other. Negative, the last says that only those rays are meant along which the scalar
-    /// runs from the first to the second.
+    /// Of a ray's way from Thickness' one side to the other, cut into window.z parts, that with the number window.w,
+    /// and of that, what runs from scalar window.x to window.y: of a ray along which the scalar runs the other way,
+    /// nothing. All of the part if the two are equal.
     glm::vec4 window;
 };
 
@@ -24,7 +24,7 @@ struct CellWays {
     float lowest, highest; ///< scalars
     float reference;       ///< a scalar between
     double longest;        ///< at least as long as any
-    bool rises, falls;     ///< whether the scalar does, along some ray, from Thickness' one side to the other
+    bool rises, falls;     ///< whether the scalar does, along some ray, from Thickness' one side to the other, or may
     bool swapped;          ///< see Thickness
 };
 

@@ -9,65 +9,71 @@ namespace visorder {
 
 namespace {
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-
-struct Polygon {
-    std::array<glm::dvec2, 4> corner; // in a round
-    std::size_t count;
-
-    const glm::dvec2& after(std::size_t i) const { return corner[i + 1 == count ? 0 : i + 1]; }
-};
-
-// In lattice steps.
-Polygon polygon_of(const VisibleCell& cell, const RasterLattice& lattice)
-{
-    const auto at = [&](std::size_t i) {
-        return glm::dvec2(cell.at[i].x, cell.at[i].y) * static_cast<double>(lattice.steps);
-    };
-    if (cell.kind == SilhouetteClass::triangle)
-        return {{at(1), at(2), at(3)}, 3};
-    return {{at(0), at(2), at(1), at(3)}, 4};
-}
-
+// std::lrint and std::floor are function calls. What is far beyond the lattice may be off by one.
 glm::ivec2 rounded(const glm::dvec2& place)
 {
-    return {std::lrint(place.x), std::lrint(place.y)};
+    constexpr int up = 1 << 24; // so that what is cut off is never negative
+    return {static_cast<int>(place.x + (up + 0.5)) - up, static_cast<int>(place.y + (up + 0.5)) - up};
+}
+
+// A convex polygon, in lattice steps.
+template <std::size_t count>
+struct Polygon {
+    std::array<glm::dvec2, count> corner; // in a round
+    std::array<double, count> areas;      // at each corner, of the parallelogram of its sides
+};
+using Triangle = Polygon<3>;
+using Quad = Polygon<4>;
+
+template <std::size_t count>
+Polygon<count> polygon(const VisibleCell& cell, const RasterLattice& lattice,
+                       const std::array<std::size_t, count>& points, const std::array<std::size_t, count>& areas)
+{
+    const double steps = lattice.steps;
+    Polygon<count> result;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3& at = cell.at[points[i]];
+        result.corner[i] = glm::dvec2(at.x * steps, at.y * steps);
+        result.areas[i] = cell.areas[areas[i]] * (steps * steps);
+    }
+    return result;
+}
+
+Triangle triangle_of(const VisibleCell& cell, const RasterLattice& lattice)
+{
+    return polygon<3>(cell, lattice, {1, 2, 3}, {0, 0, 0});
+}
+
+Quad quad_of(const VisibleCell& cell, const RasterLattice& lattice)
+{
+    return polygon<4>(cell, lattice, {0, 2, 1, 3}, {1, 3, 0, 2});
 }
 
 // A corner that is rounded moves by 0.71 steps at most.
 constexpr double margin = 1;
 
-struct MovedCorners {
-    std::array<glm::ivec2, 4> at;
-    std::size_t count;
-};
-
-// Every side moves outwards by the margin; corners are where they meet. None where one would go far.
-std::optional<MovedCorners> moved(const Polygon& polygon)
+// Every side moves outwards by the margin or a little more; corners are where they meet. False where one would go far.
+template <std::size_t count>
+bool move(const Polygon<count>& polygon, std::array<glm::ivec2, count>& moved)
 {
     constexpr double farthest = 1024; // steps
-    constexpr double least = 2 * margin * margin / (farthest * farthest);
-    double area = 0;
-    for (std::size_t i = 0; i < polygon.count; ++i)
-        area += cross(polygon.corner[i] - polygon.corner[0], polygon.after(i) - polygon.corner[0]);
-    std::array<glm::dvec2, 4> outwards{};
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const glm::dvec2 side = polygon.after(i) - polygon.corner[i];
-        outwards[i] = glm::dvec2(side.y, -side.x) * (std::copysign(1.0, area) / glm::length(side));
+    std::array<glm::dvec2, count> side;
+    std::array<double, count> way; // outwards, times the side's length
+    std::array<double, count> inverse;
+    for (std::size_t i = 0; i < count; ++i) {
+        side[i] = polygon.corner[(i + 1) % count] - polygon.corner[i];
+        way[i] = margin * (std::abs(side[i].x) + std::abs(side[i].y));
+        inverse[i] = count == 3 && i > 0 ? inverse[0] : 1 / polygon.areas[i];
     }
-    MovedCorners result{{}, polygon.count};
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const glm::dvec2& before = outwards[i == 0 ? polygon.count - 1 : i - 1];
-        const double both = 1 + glm::dot(before, outwards[i]);
-        // Written so that a side without length, too, has no corners.
-        if (!(both > least))
-            return std::nullopt;
-        result.at[i] = rounded(polygon.corner[i] + (before + outwards[i]) * (margin / both));
+    bool near = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t before = (i + count - 1) % count;
+        const glm::dvec2 off = (way[i] * side[before] - way[before] * side[i]) * inverse[i];
+        // Written so that a side without length, too, goes far.
+        near = near && std::abs(off.x) < farthest && std::abs(off.y) < farthest;
+        moved[i] = rounded(polygon.corner[i] + off);
     }
-    return result;
+    return near;
 }
 
 bool within(const glm::ivec2& place, const RasterLattice& lattice)
@@ -78,54 +84,49 @@ bool within(const glm::ivec2& place, const RasterLattice& lattice)
 
 // A triangle around a quad that is little larger, if there is one: the sides next to one of the quad's sides meet
 // beyond it. One triangle in place of two.
-std::optional<Polygon> triangle_around(const Polygon& quad)
+std::optional<Triangle> triangle_around(const Quad& quad, double most_added)
 {
-    constexpr double most_added = 0.6;   // of the quad's area
     constexpr double farthest_way = 100; // of a side
-    const auto& v = quad.corner;
-    const double area = std::abs(cross(v[2] - v[0], v[3] - v[1]));
-    double least = most_added * area;
+    const auto& a = quad.areas;
+    const double area = a[0] + a[2];
+    double least = 2 * most_added;
     std::size_t best = 4;
     double best_way = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-        const glm::dvec2 side = v[(i + 1) % 4] - v[i];
-        const glm::dvec2 before = v[i] - v[(i + 3) % 4];
-        const glm::dvec2 after = v[(i + 1) % 4] - v[(i + 2) % 4];
-        const double turn = cross(before, after);
-        if (turn == 0)
+        // Beyond the side to the next corner, if they come closer there.
+        const std::size_t next = (i + 1) % 4;
+        const double closer = a[(i + 3) % 4] - a[i];
+        if (!(a[i] * a[next] < least * closer && a[next] < farthest_way * closer))
             continue;
-        const double way = cross(side, after) / turn;
-        const double added = std::abs(cross(side, before)) * way;
-        // The sides meet beyond this one, and not on the quad's other side.
-        if (way > 0 && way < farthest_way && cross(side, before) / turn > 0 && added < least) {
-            least = added;
-            best = i;
-            best_way = way;
-        }
+        least = a[i] * a[next] / closer;
+        best_way = a[next] / closer;
+        best = i;
     }
     if (best == 4)
         return std::nullopt;
+    const auto& v = quad.corner;
     const glm::dvec2 corner = v[best] + best_way * (v[best] - v[(best + 3) % 4]);
-    return Polygon{{corner, v[(best + 2) % 4], v[(best + 3) % 4]}, 3};
+    const double whole = area + least;
+    return Triangle{{corner, v[(best + 2) % 4], v[(best + 3) % 4]}, {whole, whole, whole}};
 }
 
 // Two triangles that are a rectangle along the longest line between two corners: for what is so narrow that its corners
 // would move far.
-Outline rectangle_around(const Polygon& polygon)
+Outline rectangle_around(std::span<const glm::dvec2> corners)
 {
     glm::dvec2 along(1, 0);
     double longest = 0;
-    for (std::size_t i = 0; i < polygon.count; ++i)
+    for (std::size_t i = 0; i < corners.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
-            if (const double length = glm::length(polygon.corner[i] - polygon.corner[k]); length > longest) {
+            if (const double length = glm::length(corners[i] - corners[k]); length > longest) {
                 longest = length;
-                along = (polygon.corner[i] - polygon.corner[k]) / length;
+                along = (corners[i] - corners[k]) / length;
             }
     const glm::dvec2 across(-along.y, along.x);
-    const glm::dvec2& origin = polygon.corner[0];
+    const glm::dvec2& origin = corners[0];
     glm::dvec2 low(0);
     glm::dvec2 high(0);
-    for (const glm::dvec2& corner : std::span(polygon.corner).first(polygon.count)) {
+    for (const glm::dvec2& corner : corners) {
         const glm::dvec2 place(glm::dot(along, corner - origin), glm::dot(across, corner - origin));
         low = glm::min(low, place);
         high = glm::max(high, place);
@@ -139,38 +140,57 @@ Outline rectangle_around(const Polygon& polygon)
     return outline;
 }
 
+// Pixels: to draw as many more takes about as long as another triangle.
+constexpr double most_added = 40;
+
 } // namespace
 
 Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice)
 {
-    const Polygon polygon = polygon_of(cell, lattice);
     Outline outline;
-    if (polygon.count == 4)
-        if (const auto around = triangle_around(polygon))
-            if (const auto corners = moved(*around); corners && within(corners->at[0], lattice)) {
-                outline.add(corners->at[0], corners->at[1], corners->at[2]);
-                return outline;
-            }
-    const auto corners = moved(polygon);
-    if (!corners)
-        return rectangle_around(polygon);
-    outline.add(corners->at[0], corners->at[1], corners->at[2]);
-    if (corners->count == 4)
-        outline.add(corners->at[0], corners->at[2], corners->at[3]);
+    std::array<glm::ivec2, 3> corners;
+    if (cell.kind == SilhouetteClass::triangle) {
+        const Triangle triangle = triangle_of(cell, lattice);
+        if (!move(triangle, corners))
+            return rectangle_around(triangle.corner);
+        outline.add(corners[0], corners[1], corners[2]);
+        return outline;
+    }
+    const Quad quad = quad_of(cell, lattice);
+    if (const auto around = triangle_around(quad, most_added * lattice.steps * lattice.steps))
+        if (move(*around, corners) && within(corners[0], lattice)) {
+            outline.add(corners[0], corners[1], corners[2]);
+            return outline;
+        }
+    std::array<glm::ivec2, 4> of_quad;
+    if (!move(quad, of_quad))
+        return rectangle_around(quad.corner);
+    outline.add(of_quad[0], of_quad[1], of_quad[2]);
+    outline.add(of_quad[0], of_quad[2], of_quad[3]);
     return outline;
 }
 
+namespace {
+
+template <std::size_t count>
+Outline fan_around(const Polygon<count>& polygon, const glm::ivec2& middle)
+{
+    std::array<glm::ivec2, count> corners;
+    if (!move(polygon, corners))
+        return rectangle_around(polygon.corner);
+    Outline outline;
+    for (std::size_t i = 0; i < count; ++i)
+        outline.add(middle, corners[i], corners[(i + 1) % count]);
+    return outline;
+}
+
+} // namespace
+
 Outline fan_of(const VisibleCell& cell, const glm::dvec2& thickest, const RasterLattice& lattice)
 {
-    const Polygon polygon = polygon_of(cell, lattice);
-    const auto corners = moved(polygon);
-    if (!corners)
-        return rectangle_around(polygon);
-    Outline outline;
     const glm::ivec2 middle = rounded(thickest * static_cast<double>(lattice.steps));
-    for (std::size_t i = 0; i < corners->count; ++i)
-        outline.add(middle, corners->at[i], corners->at[(i + 1) % corners->count]);
-    return outline;
+    return cell.kind == SilhouetteClass::triangle ? fan_around(triangle_of(cell, lattice), middle)
+                                                  : fan_around(quad_of(cell, lattice), middle);
 }
 
 } // namespace visorder

@@ -18,7 +18,7 @@ public:
     std::span<const Triangle> triangles() const { return {triangles_.data(), count_}; }
 
 private:
-    std::array<Triangle, 4> triangles_{};
+    std::array<Triangle, 4> triangles_; // the first `count_` of them
     std::size_t count_ = 0;
 };
 

@@ -12,7 +12,8 @@ namespace {
 
 // What the vertex shader reads: see projector_shaders.cpp.
 struct PlaneRecord {
-    PackedPlace place;    // from the image's centre
+    glm::vec2 pixel; // see PackedPlace, from the image's centre; x is negative of a quad
+    glm::vec2 beside;
     glm::vec4 depth;      // base, slope, rise
     glm::vec4 scalar;     // likewise
     glm::vec4 offset;     // of four planes
@@ -27,30 +28,31 @@ struct PlaneOptics {
     glm::vec4 base, slope_x, slope_y, rise;
 };
 
-glm::vec4 packed(const Thickness::Linear& linear)
+// Over pixels from the cell's first point.
+glm::vec4 packed(const Thickness& t, const Thickness::Linear& linear)
 {
-    return {linear.base, linear.slope, linear.rise};
+    return {linear.base + linear.along1 * t.first1, linear.along1 * t.slope1 + linear.along2 * t.slope2, linear.rise};
 }
 
 // In units of the rise. Of a triangle: the face of the outer points, and the three others. Of a quad: the two faces at
 // the nearer edge, and the two at the farther one.
 void put_planes(PlaneRecord& record, const Thickness& t)
 {
-    const auto put = [&](int i, float offset, const glm::vec2& slope) {
-        record.offset[i] = offset;
-        record.slope_x[i] = slope.x;
-        record.slope_y[i] = slope.y;
+    const auto put = [&](int i, double offset, const glm::dvec2& slope) {
+        record.offset[i] = static_cast<float>(offset);
+        record.slope_x[i] = static_cast<float>(slope.x);
+        record.slope_y[i] = static_cast<float>(slope.y);
     };
     if (t.kind == SilhouetteClass::triangle) {
-        put(0, 0, glm::vec2(0));
-        put(1, 1, -t.k1);
-        put(2, 1, -t.k2);
-        put(3, 1, -t.k3);
+        put(0, 0, glm::dvec2(0));
+        put(1, 1, -t.slope1);
+        put(2, 1, -t.slope2);
+        put(3, 1, -t.third.x * t.slope1 - t.third.y * t.slope2);
     } else {
-        put(0, 0, t.k2);
-        put(1, 0, t.k3.y * t.k2);
-        put(2, 0, -t.k1);
-        put(3, 1 - t.k3.x, -t.k3.x * t.k1);
+        put(0, 0, t.slope2);
+        put(1, 0, t.opposite * t.slope2);
+        put(2, 0, -t.slope1);
+        put(3, 1 - t.third.x, -t.third.x * t.slope1);
     }
 }
 
@@ -62,11 +64,11 @@ PlaneOptics optics_of(const TriangleSources& from, const VisibleCell& cell, cons
         for (std::size_t i = 0; i < 4; ++i)
             values[i] = static_cast<double>(from.optics[cell.points[i]][channel]) *
                         (1 - cell.at[i].z * from.screen->inverse_distance());
-        const Thickness::Linear linear = t.linear(values);
-        optics.base[channel] = linear.base;
-        optics.slope_x[channel] = linear.slope.x;
-        optics.slope_y[channel] = linear.slope.y;
-        optics.rise[channel] = linear.rise;
+        const glm::vec4 linear = packed(t, t.linear(values));
+        optics.base[channel] = linear.x;
+        optics.slope_x[channel] = linear.y;
+        optics.slope_y[channel] = linear.z;
+        optics.rise[channel] = linear.w;
     }
     return optics;
 }
@@ -75,15 +77,7 @@ PlaneOptics optics_of(const TriangleSources& from, const VisibleCell& cell, cons
 
 struct PlaneTriangles::Writer {
     const TriangleSources& from;
-    std::byte* next;
-    std::size_t count = 0;
-
-    template <class Data>
-    void put(const Data& data)
-    {
-        std::memcpy(next, &data, sizeof data);
-        next += sizeof data;
-    }
+    RecordSink& into;
 
     void put_cell(const VisibleCell& cell)
     {
@@ -93,13 +87,15 @@ struct PlaneTriangles::Writer {
         PlaneRecord record{};
         PlaneOptics optics{};
         for (const Outline::Triangle& triangle : outline.triangles()) {
-            if (!from.cells->covers_a_centre(triangle))
+            if (!from.cells->may_cover(triangle))
                 continue;
             if (!ready) {
                 const Thickness t = thickness_of(cell, values_of(cell, from.scalars, from.screen->inverse_distance()));
-                record.place = packed_place({cell.at[0].x, cell.at[0].y}, glm::ivec2(0), lattice, t.kind, t.swapped);
-                record.depth = packed(t.depth);
-                record.scalar = packed(t.scalar);
+                const PackedPlace place = packed_place({cell.at[0].x, cell.at[0].y}, glm::ivec2(0), t.swapped);
+                record.pixel = t.kind == SilhouetteClass::quad ? glm::vec2(-place.pixel.x, place.pixel.y) : place.pixel;
+                record.beside = glm::vec2(place.beside);
+                record.depth = packed(t, t.depth);
+                record.scalar = packed(t, t.scalar);
                 put_planes(record, t);
                 if (!from.optics.empty())
                     optics = optics_of(from, cell, t);
@@ -107,10 +103,10 @@ struct PlaneTriangles::Writer {
             }
             for (std::size_t i = 0; i < 3; ++i)
                 record.corners[i] = glm::vec2(triangle[i]) / static_cast<float>(lattice.steps);
-            put(record);
+            std::byte* const next = into.next();
+            std::memcpy(next, &record, sizeof record);
             if (!from.optics.empty())
-                put(optics);
-            ++count;
+                std::memcpy(next + sizeof record, &optics, sizeof optics);
         }
     }
 };
@@ -120,18 +116,14 @@ std::size_t PlaneTriangles::record_bytes() const
     return sizeof(PlaneRecord) + (from_.optics.empty() ? 0 : sizeof(PlaneOptics));
 }
 
-std::size_t PlaneTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
-                                 std::vector<CellApart>& apart) const
+void PlaneTriangles::make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const
 {
-    constexpr std::size_t most_a_cell = 2;
-    into.resize(cells.size() * most_a_cell * record_bytes());
-    Writer writer{from_, into.data()};
+    Writer writer{from_, into};
     from_.cells->visit(
         cells, [&](const VisibleCell& cell) { writer.put_cell(cell); },
         [&](CellId cell) {
-            apart.push_back({static_cast<std::uint32_t>(writer.count), cell});
+            apart.push_back({static_cast<std::uint32_t>(into.count()), cell});
         });
-    return writer.count;
 }
 
 } // namespace visorder

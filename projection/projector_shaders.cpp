@@ -11,9 +11,11 @@ namespace visorder {
 
 namespace {
 
-std::string header(Integrator integrator)
+std::string header(Integrator integrator, bool software)
 {
     std::string text = fmt::format("#version 450 core\n#define PLACE_OFFSET {}.0\n", PackedPlace::offset);
+    if (software)
+        text += "#define CHANNELS_APART\n#define ROWS\n";
     if (needs_optics(integrator))
         text += "#define OPTICS\n";
     if (integrator == Integrator::linear)
@@ -56,8 +58,29 @@ void main()
 }
 )";
 
+// Software renderers blend images of one channel far quicker than those of four, whose pixels they mask one by one.
 constexpr const char* result_text = R"(
+#ifdef CHANNELS_APART
+layout(location = 0) out vec4 red;
+layout(location = 1) out vec4 green;
+layout(location = 2) out vec4 blue;
+layout(location = 3) out vec4 opacity;
+
+void put(vec4 light)
+{
+    red = light.rrra;
+    green = light.ggga;
+    blue = light.bbba;
+    opacity = light.aaaa;
+}
+#else
 layout(location = 0) out vec4 result;
+
+void put(vec4 light)
+{
+    result = light;
+}
+#endif
 )";
 
 constexpr const char* near_ray_text = R"(
@@ -137,62 +160,77 @@ void main()
 #else
     vec4 one_optics = vec4(0.0), other_optics = vec4(0.0);
 #endif
-    result = light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, len,
-                      swapped ? other_optics : one_optics, swapped ? one_optics : other_optics);
+    put(light_of(swapped ? other_scalar : one_scalar, swapped ? one_scalar : other_scalar, len,
+                 swapped ? other_optics : one_optics, swapped ? one_optics : other_optics));
 }
 )";
 
 // See Thickness and SilhouetteLayout. Along the ray the scalar runs from `one` to `one + run`.
 constexpr const char* silhouette_text = R"(
+flat in vec3 place;
+#ifdef ROWS
+noperspective in float row;
+#endif
 #ifdef PERSPECTIVE
 flat in vec3 ray0, ray2; // of the length of rays, squared: constant and linear, quadratic
 #endif
 
 void main()
 {
-    vec2 r = gl_FragCoord.xy + PLACE_OFFSET - abs(place.xy) - beside;
-    bool quad = place.x < 0.0;
-    bool swapped = place.y < 0.0;
-    float t1 = dot(tents.xy, r) + (quad ? 1.0 : 0.0);
-    float t2 = dot(tents.zw, r);
-    float t3 = quad ? t1 * place.z : dot(place.zw, r);
-    float g = quad ? max(t2, t2 * place.w) : 0.0;
-    float m = quad ? max(t1, t3) : max(max(t1, t2), t3);
+#ifdef ROWS
+    vec2 p = vec2(gl_FragCoord.x, floor(row)) + place.xy;
+#else
+    vec2 p = gl_FragCoord.xy + place.xy;
+#endif
+    // See SplitLinear.
+    precise float high1 = tents_high.x * p.x + tents_high.y * p.y + tent_offsets.x;
+    precise float high2 = tents_high.z * p.x + tents_high.w * p.y + tent_offsets.y;
+    precise float t1 = high1 + (tents_low.x * p.x + tents_low.y * p.y + tent_offsets.z);
+    precise float t2 = high2 + (tents_low.z * p.x + tents_low.w * p.y + tent_offsets.w);
+    float g = t2 * (t2 > 0.0 ? 1.0 - shape.w : shape.z);
+    float m = max(max(t1, shape.x * t1 + shape.y * t2), shape.w * t2);
     float thickness = 1.0 - g - m;
     // The triangle drawn reaches beyond the cell.
-    if (thickness <= 0.0)
-        discard;
-#ifdef OPTICS
-    vec4 optics = colour0 + colour1 * r.x + colour2 * r.y + colour3 * g + colour4 * m;
-#endif
+    bool in_cell = thickness > 0.0;
 #ifdef LINEAR
-    result = vec4(optics.rgb * optics.w, optics.w);
+    vec3 colour = colour0.rgb + colour1.rgb * t1 + colour2.rgb * t2 + colour3.rgb * g + colour4.rgb * m;
+    float alpha = in_cell ? colour0.w * thickness : 0.0;
+    put(vec4(colour * alpha, alpha));
 #else
-    float one = rises.z + dot(slopes.xy, r);
-    float run = rises.y * thickness;
-    float len = rises.x * thickness;
+#ifdef OPTICS
+    vec4 optics = colour0 + colour1 * t1 + colour2 * t2 + colour3 * g + colour4 * m;
+#endif
+    float one = rises.z + slopes.x * t1 + slopes.y * t2;
 #ifdef PERSPECTIVE
     // Back from what is linear on the screen.
-    float one_scale = 1.0 + dot(slopes.zw, r);
-    float rise = rises.y * one_scale - rises.w * one;
+    float one_scale = 1.0 + slopes.z * t1 + slopes.w * t2;
+    float rise = (rises.y * one_scale - rises.w * one) * thickness;
     one_scale += rises.w * g;
     float other_scale = one_scale + rises.w * thickness;
-    float scale = 1.0 / (one_scale * other_scale);
+    float both_scales = one_scale * other_scale;
+    float scale = 1.0 / both_scales;
     one = (one + rises.y * g) * other_scale * scale;
-    run = rise * thickness * scale;
-    vec2 p = gl_FragCoord.xy;
-    len *= scale * sqrt(ray0.x + (ray0.y + ray2.x * p.x + ray2.y * p.y) * p.x + (ray0.z + ray2.z * p.y) * p.y);
+    float run = rise * scale;
+    float len = rises.x * thickness * scale *
+                sqrt(ray0.x + (ray0.y + ray2.x * p.x + ray2.y * p.y) * p.x + (ray0.z + ray2.z * p.y) * p.y);
 #else
+    float rise = rises.y * thickness;
+    float both_scales = 1.0;
     one += rises.y * g;
+    float run = rise;
+    float len = rises.x * thickness;
 #endif
 #ifdef PASSES
-    result = light_of_pass(one, run, len, swapped);
+    // Of a rise so small that it does not count either way, not divided by zero.
+    vec4 light = light_of_pass(one, run, both_scales / (rise + 1e-30), len, place.z);
 #else
 #ifndef OPTICS
     vec4 optics = vec4(0.0);
 #endif
-    result = light_of(swapped ? one + run : one, swapped ? one : one + run, len, optics, optics);
+    bool swapped = place.z < 0.0;
+    vec4 light = light_of(swapped ? one + run : one, swapped ? one : one + run, len, optics, optics);
 #endif
+    put(in_cell ? light : vec4(0.0));
 #endif
 }
 )";
@@ -301,36 +339,37 @@ void main()
     float len = float((leave.x - first) * first_scale * last_scale) * length_per_depth(pixel);
 #ifdef OPTICS
     // Where a ray begins inside the cell there is no vertex whose colour could be taken.
-    result = light_of(front, back, len, optics_at(front), optics_at(back));
+    put(light_of(front, back, len, optics_at(front), optics_at(back)));
 #else
-    result = light_of(front, back, len, vec4(0.0), vec4(0.0));
+    put(light_of(front, back, len, vec4(0.0), vec4(0.0)));
 #endif
 }
 )";
 
 } // namespace
 
-ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective)
+ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective, bool software)
 {
-    std::string start = header(integrator);
+    std::string start = header(integrator, software);
     if (projector == Projector::planes)
         return {start + view_vertex_text + planes_vertex_text,
                 start + result_text + view_text + integrator_shader(integrator) + planes_text};
     const bool in_shader = projector == Projector::thick_gpu;
     const bool passes = integrator == Integrator::exact && !in_shader;
     const SilhouetteLayout layout(integrator, passes);
-    start += perspective ? "#define PERSPECTIVE\n" : "";
+    start += perspective && integrator != Integrator::linear ? "#define PERSPECTIVE\n" : "";
     start += passes ? "#define PASSES\n" : "";
     return {start + (in_shader ? thick_vertex_shader() : layout.vertex_shader()),
             start + result_text + layout.declarations() +
                 (passes ? optical_pass_shader() : integrator_shader(integrator)) + silhouette_text};
 }
 
-ShaderPair near_cell_shaders(Integrator integrator)
+ShaderPair near_cell_shaders(Integrator integrator, bool software)
 {
     const std::string optics = needs_optics(integrator) ? optics_shader() : "";
-    return {header(integrator) + near_cell_vertex_text,
-            header(integrator) + result_text + near_ray_text + optics + integrator_shader(integrator) + near_cell_text};
+    const std::string start = header(integrator, software);
+    return {start + near_cell_vertex_text,
+            start + result_text + near_ray_text + optics + integrator_shader(integrator) + near_cell_text};
 }
 
 } // namespace visorder

@@ -12,10 +12,11 @@ struct ShaderPair {
     std::string fragment;
 };
 
-/// For what PlaneTriangles, SilhouetteTriangles and ShaderThickTriangles make.
-ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective);
+/// For what PlaneTriangles, SilhouetteTriangles and ShaderThickTriangles make. `software`: in the form that is quicker
+/// where the processor draws, with each channel in an image of its own; the picture is the same.
+ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective, bool software);
 
 /// A rectangle around one NearCell.
-ShaderPair near_cell_shaders(Integrator integrator);
+ShaderPair near_cell_shaders(Integrator integrator, bool software);
 
 } // namespace visorder

@@ -27,8 +27,12 @@ namespace {
 
 constexpr std::size_t stretch_cells = 16384;
 constexpr std::size_t block_cells = 1024;
-constexpr std::size_t ring_segments = 3;
-constexpr std::size_t ring_segment_bytes = std::size_t{1} << 20;
+// Room for as many records as cells, on average; one segment is filled and another is read from.
+constexpr std::size_t most_record_bytes = 384;
+constexpr std::size_t ring_segments = 4;
+constexpr std::size_t ring_segment_bytes = stretch_cells * most_record_bytes;
+// For what has no room there.
+constexpr std::size_t rest_segment_bytes = std::size_t{1} << 20;
 
 constexpr std::size_t most_points = std::size_t{1} << 30;
 constexpr GLuint triangles_binding = 1;
@@ -49,15 +53,16 @@ const Scene& checked(const Scene& scene)
     return scene;
 }
 
-GLenum framebuffer_format(int bits)
+// Of the framebuffer, with all channels in one image or each in its own.
+std::vector<GLenum> framebuffer_formats(int bits, bool apart)
 {
     switch (bits) {
     case 32:
-        return GL_RGBA32F;
+        return apart ? std::vector<GLenum>(4, GL_R32F) : std::vector<GLenum>{GL_RGBA32F};
     case 16:
-        return GL_RGBA16F;
+        return apart ? std::vector<GLenum>(4, GL_R16F) : std::vector<GLenum>{GL_RGBA16F};
     case 8:
-        return GL_RGBA8;
+        return apart ? std::vector<GLenum>(4, GL_R8) : std::vector<GLenum>{GL_RGBA8};
     default:
         throw InputError(fmt::format("blending in {} bits; there are 32, 16 and 8", bits));
     }
@@ -65,7 +70,7 @@ GLenum framebuffer_format(int bits)
 
 const RenderOptions& checked(const RenderOptions& options)
 {
-    framebuffer_format(options.blending_bits);
+    framebuffer_formats(options.blending_bits, false);
     if (options.projector == Projector::planes && options.integrator == Integrator::linear)
         throw InputError("the integrator linear interpolates from the thickest point, which the projector planes does "
                          "not have: take silhouette or thick");
@@ -160,21 +165,21 @@ void set_rays(Program& program, const Screen& screen)
     program.set("ray_1", rays[2]);
 }
 
-UploadRing make_ring(const Context& context)
+UploadRing make_ring(const Context& context, std::size_t segment_bytes)
 {
     const Context::Current current(context);
-    return {context, ring_segment_bytes, ring_segments};
+    return {context, segment_bytes, ring_segments};
 }
 
 } // namespace
 
-/// What one part of the order becomes. Blocks are made by threads of their own, each into its place.
+/// What one part of the order becomes. Blocks are made by threads of their own, each into its part of a segment.
 struct ProjectionRenderer::Stretch {
     struct Block {
-        LargeArray<std::byte> bytes; // of the records
-        std::size_t count = 0;
+        RecordSink records;
         std::vector<CellApart> apart;
     };
+    UploadRing::Segment segment;
     std::vector<Block> blocks;
     std::vector<CellId> cells; // inner numbering
     double seconds = 0;
@@ -185,10 +190,12 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
     : context_(&context),
       scene_(&checked(scene)),
       options_(checked(options)),
+      software_(options.for_software.value_or(context.is_software())),
       lattice_(raster_lattice(context)),
-      near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator))),
+      near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator, software_))),
       function_(make_textures(context, scene, options)),
-      ring_(make_ring(context))
+      ring_(make_ring(context, ring_segment_bytes)),
+      rest_ring_(make_ring(context, rest_segment_bytes))
 {
     const Context::Current current(context);
     const Mesh& mesh = scene.mesh();
@@ -233,12 +240,18 @@ void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
     });
 }
 
+std::size_t ProjectionRenderer::records_a_block(const CellTriangles& triangles)
+{
+    return ring_segment_bytes / (stretch_cells / block_cells) / triangles.record_bytes();
+}
+
 void ProjectionRenderer::prepare(const Order& order, std::size_t first, const CellTriangles& triangles,
                                  Stretch& stretch) const
 {
     Stopwatch watch;
     const std::size_t cells = std::min(stretch_cells, order.back_to_front.size() - first);
     const std::size_t blocks = (cells + block_cells - 1) / block_cells;
+    const std::size_t room = records_a_block(triangles) * triangles.record_bytes();
     stretch.cells.resize(cells);
     stretch.blocks.resize(blocks);
     oneapi::tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
@@ -252,7 +265,8 @@ void ProjectionRenderer::prepare(const Order& order, std::size_t first, const Ce
             stretch.cells[i] = inner_cells_[cell];
         }
         block.apart.clear();
-        block.count = triangles.make(std::span(stretch.cells).subspan(begin, count), block.bytes, block.apart);
+        block.records.start(stretch.segment.memory.subspan(b * room, room), triangles.record_bytes());
+        triangles.make(std::span(stretch.cells).subspan(begin, count), block.records, block.apart);
     });
     stretch.seconds = watch.lap();
 }
@@ -261,61 +275,69 @@ Program& ProjectionRenderer::triangle_program(const Screen& screen)
 {
     std::optional<Program>& program = triangle_programs_[screen.perspective() ? 1 : 0];
     if (!program)
-        program.emplace(make_program(*context_, "cell projection",
-                                     triangle_shaders(options_.projector, options_.integrator, screen.perspective())));
+        program.emplace(
+            make_program(*context_, "cell projection",
+                         triangle_shaders(options_.projector, options_.integrator, screen.perspective(), software_)));
     return *program;
 }
 
 void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles,
                                const Program& program)
 {
-    const GlFunctions& gl = context_->gl();
     const std::size_t record_bytes = triangles.record_bytes();
-    const std::size_t vertices = 3 * triangles.triangles_a_record();
-    const std::size_t most = ring_.segment_bytes() / record_bytes;
-    std::size_t b = 0;
-    std::size_t first = 0; // record of the block
-    while (b < stretch.blocks.size()) {
-        // As many records as a segment holds.
-        std::byte* into = ring_.next();
-        std::size_t written = 0;
-        std::vector<CellApart> apart;
-        while (b < stretch.blocks.size() && written < most) {
-            const Stretch::Block& block = stretch.blocks[b];
-            const std::size_t count = std::min(block.count - first, most - written);
-            const bool all = first + count == block.count;
-            for (const CellApart& cell : block.apart)
-                if (cell.records_before >= first && (cell.records_before < first + count || all))
-                    apart.push_back({static_cast<std::uint32_t>(cell.records_before - first + written), cell.cell});
-            std::copy_n(block.bytes.data() + first * record_bytes, count * record_bytes, into + written * record_bytes);
-            written += count;
-            first = all ? 0 : first + count;
-            b += all ? 1 : 0;
+    const std::size_t room = records_a_block(triangles);
+    bind(ring_, stretch.segment, triangles);
+    for (std::size_t b = 0; b < stretch.blocks.size(); ++b) {
+        const Stretch::Block& block = stretch.blocks[b];
+        std::span<const CellApart> apart = block.apart;
+        const RecordSink& records = block.records;
+        draw_records({b * room, 0, records.count_in_room()}, apart, screen, triangles, program);
+        for (std::size_t drawn = records.count_in_room(); drawn < records.count();) {
+            const UploadRing::Segment segment = rest_ring_.next();
+            const std::size_t count = std::min(records.count() - drawn, segment.memory.size() / record_bytes);
+            const std::size_t begin = drawn - records.count_in_room();
+            std::copy_n(records.rest().data() + begin * record_bytes, count * record_bytes, segment.memory.data());
+            bind(rest_ring_, segment, triangles);
+            draw_records({0, drawn, count}, apart, screen, triangles, program);
+            rest_ring_.issued(segment);
+            drawn += count;
+            if (drawn == records.count())
+                bind(ring_, stretch.segment, triangles);
         }
-        const bool attributes = triangles.vertex_attributes() > 0;
-        if (attributes)
-            ring_.bind_vertices(attributes_.id(), record_bytes / 3);
-        else
-            ring_.bind(triangles_binding);
-        std::size_t drawn = 0;
-        const auto draw_up_to = [&](std::size_t end) {
-            if (end == drawn)
-                return;
-            program.use();
-            gl.BindVertexArray(attributes ? attributes_.id() : no_attributes_.id());
-            gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(vertices * drawn),
-                          static_cast<GLsizei>(vertices * (end - drawn)));
-            drawn = end;
-        };
-        for (const CellApart& cell : apart) {
-            draw_up_to(cell.records_before);
+        for (const CellApart& cell : apart)
             draw_near_cell(screen, cell.cell);
-        }
-        draw_up_to(written);
-        ring_.issued();
-        statistics_.triangles += written * triangles.triangles_a_record();
+        statistics_.triangles += records.count() * triangles.triangles_a_record();
     }
+    ring_.issued(stretch.segment);
     statistics_.prepare_s += stretch.seconds;
+}
+
+void ProjectionRenderer::bind(const UploadRing& ring, const UploadRing::Segment& segment,
+                              const CellTriangles& triangles) const
+{
+    if (triangles.vertex_attributes() > 0)
+        ring.bind_vertices(segment, attributes_.id(), triangles.record_bytes() / 3);
+    else
+        ring.bind(segment, triangles_binding);
+}
+
+// Takes off the front of `apart` those that it draws: all before a record in the range.
+void ProjectionRenderer::draw_records(const Records& records, std::span<const CellApart>& apart, const Screen& screen,
+                                      const CellTriangles& triangles, const Program& program)
+{
+    const GlFunctions& gl = context_->gl();
+    const std::size_t vertices = 3 * triangles.triangles_a_record();
+    const std::size_t end = records.number + records.count;
+    for (std::size_t drawn = records.number; drawn < end;) {
+        for (; !apart.empty() && apart.front().records_before == drawn; apart = apart.subspan(1))
+            draw_near_cell(screen, apart.front().cell);
+        const std::size_t next = apart.empty() ? end : std::min<std::size_t>(end, apart.front().records_before);
+        program.use();
+        gl.BindVertexArray(triangles.vertex_attributes() > 0 ? attributes_.id() : no_attributes_.id());
+        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(vertices * (records.place + drawn - records.number)),
+                      static_cast<GLsizei>(vertices * (next - drawn)));
+        drawn = next;
+    }
 }
 
 void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
@@ -355,15 +377,16 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
 void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
 {
     const GlFunctions& gl = context_->gl();
-    const GLenum format = framebuffer_format(options_.blending_bits);
+    const std::vector<GLenum> formats = framebuffer_formats(options_.blending_bits, software_);
     if (!framebuffer_ || framebuffer_->size() != screen.size())
-        framebuffer_.emplace(*context_, screen.size(), std::span(&format, 1), 0);
+        framebuffer_.emplace(*context_, screen.size(), formats, 0);
     framebuffer_->bind();
     // Beyond the image, so that the renderer clips no triangle: it would move its corners.
     gl.Viewport(screen.centre().x - lattice_.half_range, screen.centre().y - lattice_.half_range,
                 2 * lattice_.half_range, 2 * lattice_.half_range);
     constexpr std::array<float, 4> clear{};
-    gl.ClearBufferfv(GL_COLOR, 0, clear.data());
+    for (std::size_t image = 0; image < formats.size(); ++image)
+        gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(image), clear.data());
     gl.Disable(GL_DEPTH_TEST);
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_STENCIL_TEST);
@@ -388,10 +411,10 @@ void ProjectionRenderer::set_up_triangles(Program& program, const Screen& screen
     const bool planes = options_.projector == Projector::planes;
     const bool in_shader = options_.projector == Projector::thick_gpu;
     const bool linear = options_.integrator == Integrator::linear;
-    if (planes || in_shader) {
-        program.set("half_range", static_cast<float>(lattice_.half_range));
+    if (planes || in_shader || software_ || (screen.perspective() && !linear))
         program.set("centre", glm::vec2(screen.centre()));
-    }
+    if (planes || in_shader || software_)
+        program.set("half_range", static_cast<float>(lattice_.half_range));
     if (planes)
         program.set("inverse_distance", static_cast<float>(screen.inverse_distance()));
     if (in_shader) {
@@ -401,11 +424,10 @@ void ProjectionRenderer::set_up_triangles(Program& program, const Screen& screen
     if (planes || (in_shader && linear)) {
         set_rays(program, screen);
     } else if (screen.perspective() && !linear) {
-        // (x, y) is gl_FragCoord less the centre.
-        const glm::dvec3 ray = screen.rays() * glm::dvec3(-glm::dvec2(screen.centre()), 1);
         const glm::dvec3& x = screen.rays()[0];
         const glm::dvec3& y = screen.rays()[1];
-        program.set("ray_constant", glm::vec3(glm::dot(ray, ray), 2 * glm::dot(ray, x), 2 * glm::dot(ray, y)));
+        const glm::dvec3& one = screen.rays()[2];
+        program.set("ray_constant", glm::vec3(glm::dot(one, one), 2 * glm::dot(one, x), 2 * glm::dot(one, y)));
         program.set("ray_quadratic", glm::vec3(glm::dot(x, x), 2 * glm::dot(x, y), glm::dot(y, y)));
     } else if (in_shader) {
         program.set("length_a_depth", static_cast<float>(glm::length(screen.rays()[2])));
@@ -439,7 +461,9 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     points_.place(screen, lattice_, scene_->mesh().points);
     statistics_.place_s = watch.lap();
 
-    const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
+    const VisibleCells visible(*scene_, turned_, points_, screen, lattice_,
+                               options_.projector == Projector::planes ? FragmentPrecision::single
+                                                                       : FragmentPrecision::composite);
     const bool linear = options_.integrator == Integrator::linear;
     const bool exact = options_.integrator == Integrator::exact;
     const TriangleSources sources{&screen, &visible, scalars_, optics_, linear, exact ? &pieces_ : nullptr};
@@ -447,12 +471,15 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     const CellTriangles& triangles = *made;
     set_up_attributes(triangles);
     const std::size_t cells = order.back_to_front.size();
+    stretches_[0]->segment = ring_.next();
     prepare(order, 0, triangles, *stretches_[0]);
     for (std::size_t first = 0, i = 0; first < cells; first += stretch_cells, ++i) {
         // While this stretch is drawn, the next one is made.
         oneapi::tbb::task_group group;
-        if (first + stretch_cells < cells)
-            group.run([&, this] { prepare(order, first + stretch_cells, triangles, *stretches_[(i + 1) % 2]); });
+        if (Stretch& later = *stretches_[(i + 1) % 2]; first + stretch_cells < cells) {
+            later.segment = ring_.next();
+            group.run([&, this] { prepare(order, first + stretch_cells, triangles, later); });
+        }
         try {
             issue(*stretches_[i % 2], screen, triangles, program);
         } catch (...) {
@@ -464,11 +491,27 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     context_->gl().Finish();
     statistics_.draw_s = watch.lap();
 
-    Image image{screen.size(), {}};
-    image.pixels.resize(static_cast<std::size_t>(image.size.x) * static_cast<std::size_t>(image.size.y));
-    framebuffer_->read(0, {0, 0}, image.size, GL_RGBA, GL_FLOAT, image.pixels.data());
+    Image image = read_image();
     context_->check();
     statistics_.read_s = watch.lap();
+    return image;
+}
+
+Image ProjectionRenderer::read_image() const
+{
+    const glm::ivec2 size = framebuffer_->size();
+    Image image{size, {}};
+    image.pixels.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    if (!software_) {
+        framebuffer_->read(0, {0, 0}, size, GL_RGBA, GL_FLOAT, image.pixels.data());
+        return image;
+    }
+    std::vector<float> channel(image.pixels.size());
+    for (int i = 0; i < 4; ++i) {
+        framebuffer_->read(static_cast<std::size_t>(i), {0, 0}, size, GL_RED, GL_FLOAT, channel.data());
+        for (std::size_t pixel = 0; pixel < channel.size(); ++pixel)
+            image.pixels[pixel][i] = channel[pixel];
+    }
     return image;
 }
 

@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace visorder {
@@ -27,6 +28,9 @@ struct RenderOptions {
     Projector projector = Projector::silhouette;
     Integrator integrator = Integrator::exact;
     int blending_bits = 32; ///< of a channel of the framebuffer: 32 or 16 (floats), or 8
+    /// Whether each channel is blended in an image of its own and rows are interpolated: the same picture, quicker
+    /// where the processor draws. Chosen by that if it is not set.
+    std::optional<bool> for_software;
     TableOptions tables;
 };
 
@@ -73,8 +77,17 @@ private:
     struct Stretch;
 
     Program& triangle_program(const Screen& screen);
+    Image read_image() const;
     void prepare(const Order& order, std::size_t first, const CellTriangles& triangles, Stretch& stretch) const;
     void issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles, const Program& program);
+    static std::size_t records_a_block(const CellTriangles& triangles);
+    void bind(const UploadRing& ring, const UploadRing::Segment& segment, const CellTriangles& triangles) const;
+    // Some of a block's: the first one's place in what is bound, and its number in the block.
+    struct Records {
+        std::size_t place, number, count;
+    };
+    void draw_records(const Records& records, std::span<const CellApart>& apart, const Screen& screen,
+                      const CellTriangles& triangles, const Program& program);
     void draw_near_cell(const Screen& screen, CellId cell);
     void set_up(const Screen& screen, Program& triangle_program);
     void set_up_triangles(Program& program, const Screen& screen) const;
@@ -83,6 +96,7 @@ private:
     const Context* context_;
     const Scene* scene_;
     RenderOptions options_;
+    bool software_;
     RasterLattice lattice_;
     std::vector<float> scalars_;                              // 0 to 1 over the scene
     std::vector<std::uint8_t> turned_;                        // of each cell
@@ -96,6 +110,7 @@ private:
     GlObject attributes_;
     int attribute_count_ = 0;
     UploadRing ring_;
+    UploadRing rest_ring_;
     std::optional<Framebuffer> framebuffer_;
     ScreenPoints points_;
     std::vector<std::unique_ptr<Stretch>> stretches_;

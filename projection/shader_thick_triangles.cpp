@@ -29,12 +29,8 @@ std::size_t ShaderThickTriangles::record_bytes() const
     return sizeof(ThickRecord) + (from_.optics.empty() ? 0 : sizeof(PointOptics));
 }
 
-std::size_t ShaderThickTriangles::make(std::span<const CellId> cells, LargeArray<std::byte>& into,
-                                       std::vector<CellApart>& apart) const
+void ShaderThickTriangles::make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const
 {
-    const std::size_t bytes = record_bytes();
-    into.resize(cells.size() * bytes);
-    std::size_t count = 0;
     const auto put = [&](const VisibleCell& cell) {
         const CellValues values = values_of(cell, from_.scalars, from_.screen->inverse_distance());
         ThickRecord record{};
@@ -43,7 +39,7 @@ std::size_t ShaderThickTriangles::make(std::span<const CellId> cells, LargeArray
         record.least_width = cell.least_width;
         record.quad = cell.kind == SilhouetteClass::quad ? 1 : 0;
         record.inner_behind = cell.inner_behind ? 1 : 0;
-        std::byte* const next = into.data() + count++ * bytes;
+        std::byte* const next = into.next();
         std::memcpy(next, &record, sizeof record);
         if (from_.optics.empty())
             return;
@@ -52,8 +48,9 @@ std::size_t ShaderThickTriangles::make(std::span<const CellId> cells, LargeArray
             optics[i] = from_.optics[cell.points[i]];
         std::memcpy(next + sizeof record, &optics, sizeof optics);
     };
-    from_.cells->visit(cells, put, [&](CellId cell) { apart.push_back({static_cast<std::uint32_t>(count), cell}); });
-    return count;
+    from_.cells->visit(cells, put, [&](CellId cell) {
+        apart.push_back({static_cast<std::uint32_t>(into.count()), cell});
+    });
 }
 
 } // namespace visorder

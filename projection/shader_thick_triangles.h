@@ -13,8 +13,7 @@ public:
     std::size_t record_bytes() const override;
     std::size_t triangles_a_record() const override { return 4; }
     int vertex_attributes() const override { return 0; }
-    std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
-                     std::vector<CellApart>& apart) const override;
+    void make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const override;
 
 private:
     TriangleSources from_;

@@ -1,12 +1,21 @@
 #include "projection/silhouette.h"
 
+#include <bit>
+#include <cmath>
+
 namespace visorder {
 
 namespace {
 
-double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
+double cross(const glm::dvec2& a, const glm::dvec2& b)
 {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    return a.x * b.y - a.y * b.x;
+}
+
+// The share of a point is the area of the triangle of the others in ascending order, negative of points 1 and 3.
+bool ascending_are_counterclockwise(unsigned left_out, bool positive_share)
+{
+    return (left_out % 2 == 0) == positive_share;
 }
 
 // By which points have a positive and which a negative share in the affine dependency (bit i: point i).
@@ -14,24 +23,27 @@ Silhouette by_signs(unsigned positive, unsigned negative)
 {
     Silhouette result;
     constexpr unsigned everything = 15;
-    const auto count = [](unsigned bits) { return (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1) + (bits >> 3 & 1); };
     std::size_t next = 0;
     const auto put = [&](unsigned bits) {
         for (std::uint8_t i = 0; i < 4; ++i)
             if ((bits >> i & 1) != 0)
                 result.points[next++] = i;
     };
-    if (count(positive) == 2 && count(negative) == 2) {
+    if (std::popcount(positive) == 2 && std::popcount(negative) == 2) {
         result.kind = SilhouetteClass::quad;
         put(positive);
         put(negative);
         result.first_behind = true;
-    } else if (count(positive) == 1 || count(negative) == 1) {
-        const unsigned inner = count(positive) == 1 ? positive : negative;
+        const auto [a, b, c, d] = result.points;
+        const bool reordered = (a > c) != (c > b); // of a, c, b
+        result.counterclockwise = ascending_are_counterclockwise(d, false) != reordered;
+    } else if (std::popcount(positive) == 1 || std::popcount(negative) == 1) {
+        const unsigned inner = std::popcount(positive) == 1 ? positive : negative;
         result.kind = SilhouetteClass::triangle;
         put(inner);
         put(everything & ~inner);
         result.first_behind = inner == positive;
+        result.counterclockwise = ascending_are_counterclockwise(result.points[0], inner == positive);
     }
     return result;
 }
@@ -53,16 +65,21 @@ std::array<Silhouette, sign_patterns> all_patterns()
 Silhouette silhouette_of(const std::array<glm::dvec2, 4>& points)
 {
     static const std::array<Silhouette, sign_patterns> table = all_patterns();
-    const std::array<double, 4> share{
-        doubled_area(points[1], points[2], points[3]), -doubled_area(points[0], points[2], points[3]),
-        doubled_area(points[0], points[1], points[3]), -doubled_area(points[0], points[1], points[2])};
+    const glm::dvec2 first = points[1] - points[0];
+    const glm::dvec2 second = points[2] - points[0];
+    const glm::dvec2 third = points[3] - points[0];
+    std::array<double, 4> share{0, -cross(second, third), -cross(third, first), -cross(first, second)};
+    share[0] = -(share[1] + share[2] + share[3]);
     unsigned positive = 0;
     unsigned negative = 0;
     for (unsigned i = 0; i < 4; ++i) {
         positive |= static_cast<unsigned>(share[i] > 0) << i;
         negative |= static_cast<unsigned>(share[i] < 0) << i;
     }
-    return table[positive << 4 | negative];
+    Silhouette result = table[positive << 4 | negative];
+    for (std::size_t i = 0; i < 4; ++i)
+        result.areas[i] = std::abs(share[result.points[i]]);
+    return result;
 }
 
 } // namespace visorder

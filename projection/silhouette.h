@@ -25,6 +25,13 @@ struct Silhouette {
     /// For points at depths z (away from the viewer) that make a tetrahedron whose vertices stand in VTK's order:
     /// whether the inner point of a triangle is behind the other three, or the first edge of a quad behind the second.
     bool first_behind = false;
+
+    /// Whether points[1], [2], [3] of a triangle, or points[0], [2], [1], [3] of a quad, stand counterclockwise.
+    bool counterclockwise = false;
+
+    /// Of each of `points`, twice the area of the triangle of the other three. Of a triangle, the first is the sum of
+    /// the others; of a quad, the first two are together as large as the last two.
+    std::array<double, 4> areas{};
 };
 
 /// What is degenerate needs no rule of its own: the signs of the four points' affine dependency sum_i s_i p_i = 0,

@@ -18,8 +18,7 @@ public:
 
     std::size_t record_bytes() const override { return layout_.triangle_bytes(); }
     int vertex_attributes() const override { return layout_.vertex_attributes(); }
-    std::size_t make(std::span<const CellId> cells, LargeArray<std::byte>& into,
-                     std::vector<CellApart>& apart) const override;
+    void make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const override;
 
 private:
     struct Writer;

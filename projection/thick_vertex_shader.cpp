@@ -1,5 +1,7 @@
 #include "projection/thick_vertex_shader.h"
 
+#include "projection/silhouette_layout.h"
+
 namespace visorder {
 
 namespace {
@@ -15,12 +17,12 @@ struct Cell {
 };
 layout(std430, binding = 1) readonly buffer Cells { Cell cells[]; };
 uniform float lattice_steps;
+#ifndef ROWS
 uniform float half_range;
-uniform vec2 centre;
+#endif
 uniform double inverse_distance;
 
-flat out vec4 place, tents;
-flat out vec2 beside;
+flat out vec4 shape, tents_high, tents_low, tent_offsets;
 #ifdef OPTICS
 flat out vec4 colour0, colour1, colour2, colour3, colour4;
 #endif
@@ -28,10 +30,7 @@ flat out vec4 colour0, colour1, colour2, colour3, colour4;
 uniform vec3 ray_x, ray_y, ray_1; // see Screen::rays
 #else
 flat out vec4 rises, slopes;
-#ifdef PERSPECTIVE
-uniform vec3 ray_constant, ray_quadratic; // of the length of rays, squared, over gl_FragCoord
-flat out vec3 ray0, ray2;
-#else
+#ifndef PERSPECTIVE
 uniform float length_a_depth;
 #endif
 #endif
@@ -54,25 +53,23 @@ dvec2 corner_of_fan(dvec2 thickest, int triangle, int corner)
     polygon[1] = at[2];
     polygon[2] = quad ? at[1] : at[3];
     polygon[3] = at[3];
-    dvec2 outwards[4];
+    dvec2 side[4];
+    double way[4];
     dvec2 moved[4];
-    double whole = 0.0;
     for (int i = 0; i < 4; ++i)
         polygon[i] *= lattice_steps;
-    for (int i = 1; i + 1 < count; ++i)
-        whole += area(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
     for (int i = 0; i < count; ++i) {
-        dvec2 side = polygon[i + 1 == count ? 0 : i + 1] - polygon[i];
-        outwards[i] = across(side) * ((whole < 0.0 ? -1.0 : 1.0) / length(side));
+        side[i] = polygon[i + 1 == count ? 0 : i + 1] - polygon[i];
+        way[i] = abs(side[i].x) + abs(side[i].y);
     }
     bool narrow = false;
     for (int i = 0; i < count; ++i) {
-        dvec2 before = outwards[i == 0 ? count - 1 : i - 1];
-        double both = 1.0 + dot(before, outwards[i]);
+        int before = i == 0 ? count - 1 : i - 1;
+        dvec2 off = (way[i] * side[before] - way[before] * side[i]) / abs(area(side[before], side[i]));
         // Written so that a side without length, too, makes it narrow.
-        if (!(both > 2.0 / (1024.0 * 1024.0)))
+        if (!(abs(off.x) < 1024.0 && abs(off.y) < 1024.0))
             narrow = true;
-        moved[i] = rounded(polygon[i] + (before + outwards[i]) / both);
+        moved[i] = rounded(polygon[i] + off);
     }
     if (!narrow)
         return triangle >= count || corner == 0 ? rounded(thickest * lattice_steps)
@@ -102,12 +99,23 @@ dvec2 corner_of_fan(dvec2 thickest, int triangle, int corner)
     return rounded(polygon[0] + along * (right ? high.x : low.x) - across(along) * (top ? high.y : low.y));
 }
 
-// One at the far edge of a triangle beside the inner point, as thickness_of has it.
-dvec2 tent(dvec2 a, dvec2 b, double whole)
+// Twice the area of a triangle with a narrow face at its side, if that is as wide as the least.
+double widened(double area_of, dvec2 side)
 {
-    dvec2 edge = b - a;
-    double wide = max(whole > 0.0 ? area(a, b) : -area(a, b), least * length(edge));
-    return wide == 0.0 ? dvec2(0.0) : across(edge) / (whole > 0.0 ? wide : -wide);
+    return max(abs(area_of), least * length(side));
+}
+
+// As split_linear has it: high slope and offset, low slope and offset.
+void split(dvec2 slope, double offset, double reach, out vec3 high, out vec3 low)
+{
+    double terms = 2.0 * reach * max(abs(slope.x), abs(slope.y)) + abs(offset);
+    int exponent;
+    frexp(terms, exponent);
+    double unit = ldexp(1.0lf, exponent - 23);
+    dvec3 all = dvec3(slope, offset);
+    dvec3 coarse = floor(all / unit + 0.5) * unit;
+    high = vec3(coarse);
+    low = vec3(all - coarse);
 }
 
 void main()
@@ -126,94 +134,106 @@ void main()
     // See Thickness.
     dvec2 b = at[1] - at[0], c = at[2] - at[0], d = at[3] - at[0];
     dvec2 thickest = at[0];
-    dvec2 k1, k2, k3;
-    dvec2 base, rise, slope_x, slope_y; // of depth and scalar
-    dvec3 shares = dvec3(0.0);          // of the outer points at the inner one
-    dvec2 share_b = dvec2(0.0), share_c = dvec2(0.0), share_d = dvec2(0.0);
-    double along1 = 0.0, along2 = 0.0, opposite1 = 0.0, opposite2 = 0.0;
+    dvec2 slope1, slope2, third = dvec2(0.0);
+    double first1 = 0.0, opposite = 0.0;
+    dvec2 base, rise, along1, along2;  // of depth and scalar
+    int outer[3] = int[3](1, 2, 3);
+    dvec3 shares = dvec3(0.0);         // of those at the inner point
+    double way1 = 0.0, way2 = 0.0;     // of a quad, to where its edges cross
     if (quad) {
         dvec2 farther = d - c;
         double whole = area(b, farther);
-        along1 = area(c, farther) / whole;
-        along2 = area(c, b) / whole;
-        thickest += along1 * b;
-        k1 = -across(farther) / area(c, farther);
-        k2 = across(b) / area(c, b);
-        opposite1 = -max((1.0 - along1) / along1, least * length(k1));
-        opposite2 = -max((1.0 - along2) / along2, least * length(k2));
-        k3 = dvec2(1.0 / opposite1, 1.0 / opposite2);
-        dvec2 before = values[0] + along1 * (values[1] - values[0]);
-        dvec2 behind = values[2] + along2 * (values[3] - values[2]);
-        base = values[0];
+        way1 = area(c, farther) / whole;
+        way2 = area(c, b) / whole;
+        thickest += way1 * b;
+        slope1 = -across(farther) / area(c, farther);
+        slope2 = across(b) / area(c, b);
+        first1 = 1.0;
+        third.x = -abs(area(c, farther)) / widened(area(c - b, farther), farther);
+        opposite = -abs(area(c, b)) / widened(area(d, b), b);
+        dvec2 before = values[0] + way1 * (values[1] - values[0]);
+        dvec2 behind = values[2] + way2 * (values[3] - values[2]);
+        base = before;
         rise = behind - before;
-        slope_x = (values[0] - before) * k1.x + (values[2] - behind) * k2.x;
-        slope_y = (values[0] - before) * k1.y + (values[2] - behind) * k2.y;
+        along1 = values[0] - before;
+        along2 = values[2] - behind;
     } else {
-        shares = dvec3(area(c, d), area(d, b), area(b, c));
-        double whole = shares.x + shares.y + shares.z;
-        shares /= whole;
-        share_b = across(c - d) / whole;
-        share_c = across(d - b) / whole;
-        share_d = across(b - c) / whole;
-        k1 = tent(b, c, whole);
-        k2 = tent(c, d, whole);
-        k3 = tent(d, b, whole);
-        base = shares.x * values[1] + shares.y * values[2] + shares.z * values[3];
+        double areas[4];
+        areas[1] = area(c, d);
+        areas[2] = area(d, b);
+        areas[3] = area(b, c);
+        double whole = areas[1] + areas[2] + areas[3];
+        double turn = whole < 0.0 ? -1.0 : 1.0;
+        int largest = 1;
+        for (int i = 2; i < 4; ++i)
+            if (turn * areas[i] > turn * areas[largest])
+                largest = i;
+        outer[0] = largest % 3 + 1;
+        outer[1] = outer[0] % 3 + 1;
+        outer[2] = largest;
+        dvec2 side1 = at[largest] - at[outer[1]], side2 = at[outer[0]] - at[largest];
+        double area1 = widened(areas[outer[0]], side1), area2 = widened(areas[outer[1]], side2);
+        shares = dvec3(area1, area2, turn * areas[largest]) / abs(whole);
+        slope1 = turn * across(side1) / area1;
+        slope2 = turn * across(side2) / area2;
+        third = dvec2(-area1, -area2) / (turn * areas[largest]);
+        along1 = shares.x * (values[largest] - values[outer[0]]);
+        along2 = shares.y * (values[largest] - values[outer[1]]);
+        base = values[largest] - along1 - along2;
         rise = values[0] - base;
-        slope_x = share_b.x * values[1] + share_c.x * values[2] + share_d.x * values[3];
-        slope_y = share_b.y * values[1] + share_c.y * values[2] + share_d.y * values[3];
     }
     bool swapped = !quad && !inner_behind;
 
     gl_Position = vec4(vec2(corner_of_fan(thickest, triangle, corner)) / (lattice_steps * half_range), 0.0, 1.0);
     // See PackedPlace.
-    dvec2 on_lattice = rounded(at[0] * lattice_steps) / double(lattice_steps);
-    vec2 positive = vec2(on_lattice + centre) + PLACE_OFFSET;
-    place = vec4(quad ? -positive.x : positive.x, swapped ? -positive.y : positive.y, k3);
-    beside = vec2(at[0] - on_lattice);
-    tents = vec4(k1, k2);
+    dvec2 middle = floor(at[0]) + 0.5;
+    vec2 positive = vec2(middle + centre + double(PLACE_OFFSET));
+    hand_on_place(vec2(positive.x, swapped ? -positive.y : positive.y));
+    shape = vec4(third, opposite, quad ? 0.0 : 1.0);
+    dvec2 beside = at[0] - middle;
+    double reach = 2.0;
+    for (int i = 1; i < 4; ++i)
+        reach = max(reach, 2.0 + max(abs(at[i].x - at[0].x), abs(at[i].y - at[0].y)));
+    vec3 high1, low1, high2, low2;
+    split(slope1, first1 - dot(slope1, beside), reach, high1, low1);
+    split(slope2, -dot(slope2, beside), reach, high2, low2);
+    tents_high = vec4(high1.xy, high2.xy);
+    tents_low = vec4(low1.xy, low2.xy);
+    tent_offsets = vec4(high1.z, high2.z, low1.z, low2.z);
 #ifndef LINEAR
-    // All relative to what 1 - depth / D is at the first point; see SilhouetteTriangles.
+    // See SilhouetteTriangles.
     double scale = 1.0 / (1.0 - base.x * inverse_distance);
     double depth_rise = (swapped ? -rise.x : rise.x) * scale * scale;
-#ifdef PERSPECTIVE
-    ray0 = ray_constant;
-    ray2 = ray_quadratic;
-#else
+#ifndef PERSPECTIVE
     depth_rise *= length_a_depth;
 #endif
     rises = vec4(depth_rise, scale * rise.y, scale * base.y, -scale * inverse_distance * rise.x);
-    slopes = vec4(scale * slope_x.y, scale * slope_y.y, -scale * inverse_distance * slope_x.x,
-                  -scale * inverse_distance * slope_y.x);
+    slopes = vec4(scale * along1.y, scale * along2.y, -scale * inverse_distance * along1.x,
+                  -scale * inverse_distance * along2.x);
 #endif
 #ifdef OPTICS
-    vec4 o0 = cells[cell].optics[0], o1 = cells[cell].optics[1];
-    vec4 o2 = cells[cell].optics[2], o3 = cells[cell].optics[3];
-    vec4 thick = 0.5 * (quad ? mix(o0, o1, float(along1)) + mix(o2, o3, float(along2))
-                             : o0 + float(shares.x) * o1 + float(shares.y) * o2 + float(shares.z) * o3);
+    vec4 o[4] = cells[cell].optics;
+    vec4 thick = 0.5 * (quad ? mix(o[0], o[1], float(way1)) + mix(o[2], o[3], float(way2))
+                             : o[0] + float(shares.x) * o[outer[0]] + float(shares.y) * o[outer[1]] +
+                                   float(shares.z) * o[outer[2]]);
 #ifdef LINEAR
-    double before = quad ? values[0].x + along1 * (values[1].x - values[0].x) : values[0].x;
+    double before = quad ? base.x : values[0].x;
     double behind = before + (quad ? rise.x : -rise.x);
     double len = abs(rise.x) / ((1.0 - before * inverse_distance) * (1.0 - behind * inverse_distance)) *
                  length(float(thickest.x) * ray_x + float(thickest.y) * ray_y + ray_1);
     thick.w = 1.0 - exp(-thick.w * float(len));
-    o0.w = o1.w = o2.w = o3.w = 0.0;
 #endif
+    colour0 = thick;
     if (quad) {
-        vec4 slope1 = (o0 - o1) / float(1.0 - opposite1);
-        vec4 slope2 = (o2 - o3) / float(1.0 - opposite2);
-        colour0 = thick + slope1;
-        colour1 = float(k1.x) * slope1 + float(k2.x) * slope2;
-        colour2 = float(k1.y) * slope1 + float(k2.y) * slope2;
-        colour3 = o2 - thick - slope2;
-        colour4 = o0 - thick - slope1;
+        colour1 = (o[0] - o[1]) / float(1.0 - 1.0 / third.x);
+        colour2 = (o[2] - o[3]) / float(1.0 - 1.0 / opposite);
+        colour3 = o[2] - thick - colour2;
+        colour4 = o[0] - thick - colour1;
     } else {
-        vec4 face = float(shares.x) * o1 + float(shares.y) * o2 + float(shares.z) * o3;
-        colour0 = thick;
-        colour1 = float(share_b.x) * o1 + float(share_c.x) * o2 + float(share_d.x) * o3;
-        colour2 = float(share_b.y) * o1 + float(share_c.y) * o2 + float(share_d.y) * o3;
+        colour1 = float(shares.x) * (o[outer[2]] - o[outer[0]]);
+        colour2 = float(shares.y) * (o[outer[2]] - o[outer[1]]);
         colour3 = vec4(0.0);
-        colour4 = face - thick;
+        colour4 = o[outer[2]] - colour1 - colour2 - thick;
     }
 #endif
 }
@@ -221,9 +241,9 @@ void main()
 
 } // namespace
 
-const char* thick_vertex_shader()
+std::string thick_vertex_shader()
 {
-    return text;
+    return place_vertex_shader() + text;
 }
 
 } // namespace visorder

@@ -9,42 +9,22 @@ namespace visorder {
 
 namespace {
 
-constexpr double tiny = 1e-12; // pixels
-
-double cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-    return a.x * b.y - a.y * b.x;
-}
-
 // The gradient of r -> cross(r, e).
 glm::dvec2 across(const glm::dvec2& e)
 {
     return {e.y, -e.x};
 }
 
-struct Corners {
-    glm::dvec2 second, third, fourth; // from the first, in pixels
-};
-
 glm::dvec2 flat(const glm::dvec3& p)
 {
     return {p.x, p.y};
 }
 
-Corners corners_of(const VisibleCell& cell)
+// Of the three outer points of a triangle, at the inner one.
+std::array<double, 3> shares_at_inner(const VisibleCell& cell)
 {
-    const glm::dvec2 first = flat(cell.at[0]);
-    return {flat(cell.at[1]) - first, flat(cell.at[2]) - first, flat(cell.at[3]) - first};
-}
-
-// Of the three outer points' areas with the inner one, in it.
-std::array<double, 3> shares_at_inner(const Corners& c)
-{
-    const double first = cross(c.third, c.fourth);
-    const double second = cross(c.fourth, c.second);
-    const double third = cross(c.second, c.third);
-    const double whole = first + second + third;
-    return {first / whole, second / whole, third / whole};
+    const double whole = 1 / cell.areas[0];
+    return {cell.areas[1] * whole, cell.areas[2] * whole, cell.areas[3] * whole};
 }
 
 // Where the edges of a quad cross, as a share of the way along each.
@@ -52,11 +32,9 @@ struct Crossing {
     double along_first, along_second;
 };
 
-Crossing crossing_of(const Corners& c)
+Crossing crossing_of(const VisibleCell& cell)
 {
-    const glm::dvec2 farther = c.fourth - c.third;
-    const double whole = cross(c.second, farther);
-    return {cross(c.third, farther) / whole, cross(c.third, c.second) / whole};
+    return {cell.areas[1] / (cell.areas[0] + cell.areas[1]), cell.areas[3] / (cell.areas[2] + cell.areas[3])};
 }
 
 double mix(double a, double b, double share)
@@ -64,38 +42,53 @@ double mix(double a, double b, double share)
     return a + share * (b - a);
 }
 
-glm::vec4 combined(const std::array<glm::vec4, 4>& values, const std::array<double, 4>& shares)
+// Twice the area of a triangle with a narrow face at its side from a to b, if that is as wide as the least.
+double widened(double area, const glm::dvec2& a, const glm::dvec2& b, double least_width)
 {
-    glm::vec4 sum(0);
-    for (std::size_t i = 0; i < 4; ++i)
-        sum += static_cast<float>(shares[i]) * values[i];
-    return sum;
+    return least_width == 0 ? area : std::max(area, least_width * glm::length(b - a));
 }
 
-double length_at(const TriangleSources& from, const ThickPoint& point)
+void measure_triangle(Thickness& t, const VisibleCell& cell)
 {
-    const Screen& screen = *from.screen;
-    const double inverse = screen.inverse_distance();
-    return (point.back_depth - point.front_depth) /
-           ((1 - point.front_depth * inverse) * (1 - point.back_depth * inverse)) *
-           glm::length(screen.rays() * glm::dvec3(point.at, 1));
+    // The largest share is at least a third: what is divided by it does not grow.
+    const auto largest =
+        static_cast<std::size_t>(std::max_element(cell.areas.begin() + 1, cell.areas.end()) - cell.areas.begin());
+    const std::size_t next = largest % 3 + 1;
+    const std::size_t last = next % 3 + 1;
+    t.outer = {static_cast<std::uint8_t>(next), static_cast<std::uint8_t>(last), static_cast<std::uint8_t>(largest)};
+    const glm::dvec2 at_next = flat(cell.at[next]);
+    const glm::dvec2 at_last = flat(cell.at[last]);
+    const glm::dvec2 at_largest = flat(cell.at[largest]);
+    const double area1 = widened(cell.areas[next], at_last, at_largest, cell.least_width);
+    const double area2 = widened(cell.areas[last], at_largest, at_next, cell.least_width);
+    const double turn = cell.counterclockwise ? 1 : -1;
+    const double whole = 1 / cell.areas[0];
+    t.shares = {area1 * whole, area2 * whole, cell.areas[largest] * whole};
+    t.slope1 = across(at_largest - at_last) * (turn / area1);
+    t.slope2 = across(at_next - at_largest) * (turn / area2);
+    t.first1 = 0;
+    t.third = {-area1 / cell.areas[largest], -area2 / cell.areas[largest]};
+    t.opposite = 0;
+    t.swapped = !cell.inner_behind;
 }
 
-void measure_quad(Thickness& t, const Corners& c, double least_width)
+void measure_quad(Thickness& t, const VisibleCell& cell)
 {
-    const glm::dvec2 farther = c.fourth - c.third;
-    const Crossing crossing = crossing_of(c);
-    // Coordinate 1 is 1 at the first point and 0 on the farther edge; 2 is 1 at the third and 0 on the nearer edge.
-    t.k1_exact = -across(farther) / cross(c.third, farther);
-    t.k2_exact = across(c.second) / cross(c.third, c.second);
-    const double least = std::max(least_width, tiny);
-    t.opposite1 = -std::max((1 - crossing.along_first) / crossing.along_first, least * glm::length(t.k1_exact));
-    t.opposite2 = -std::max((1 - crossing.along_second) / crossing.along_second, least * glm::length(t.k2_exact));
+    const glm::dvec2 nearer = flat(cell.at[1]) - flat(cell.at[0]);
+    const glm::dvec2 farther = flat(cell.at[3]) - flat(cell.at[2]);
+    const double turn = cell.counterclockwise ? 1 : -1;
+    const Crossing crossing = crossing_of(cell);
     t.along_first = crossing.along_first;
     t.along_second = crossing.along_second;
-    t.k1 = glm::vec2(t.k1_exact);
-    t.k2 = glm::vec2(t.k2_exact);
-    t.k3 = glm::vec2(1 / t.opposite1, 1 / t.opposite2);
+    t.slope1 = across(farther) * (-turn / cell.areas[1]);
+    t.slope2 = across(nearer) * (turn / cell.areas[3]);
+    t.first1 = 1;
+    // Each tent at the other end of its edge is the less, the closer that is to the other edge's line.
+    const double less1 = widened(cell.areas[0], glm::dvec2(0), farther, cell.least_width);
+    const double less2 = widened(cell.areas[2], glm::dvec2(0), nearer, cell.least_width);
+    t.third = {-cell.areas[1] / less1, 0};
+    t.opposite = -cell.areas[3] / less2;
+    t.swapped = false;
 }
 
 } // namespace
@@ -112,18 +105,17 @@ CellValues values_of(const VisibleCell& cell, std::span<const float> scalars, do
 
 ThickPoint thick_point(const VisibleCell& cell, const CellValues& values)
 {
-    const Corners c = corners_of(cell);
     ThickPoint point{};
     point.at = flat(cell.at[0]);
     if (cell.kind == SilhouetteClass::triangle) {
-        const std::array<double, 3> shares = shares_at_inner(c);
+        const std::array<double, 3> shares = shares_at_inner(cell);
         point.front_shares = {1, 0, 0, 0};
         point.back_shares = {0, shares[0], shares[1], shares[2]};
         if (cell.inner_behind)
             std::swap(point.front_shares, point.back_shares);
     } else {
-        const Crossing crossing = crossing_of(c);
-        point.at += crossing.along_first * c.second;
+        const Crossing crossing = crossing_of(cell);
+        point.at += crossing.along_first * (flat(cell.at[1]) - point.at);
         point.front_shares = {1 - crossing.along_first, crossing.along_first, 0, 0};
         point.back_shares = {0, 0, 1 - crossing.along_second, crossing.along_second};
     }
@@ -136,91 +128,63 @@ ThickPoint thick_point(const VisibleCell& cell, const CellValues& values)
     return point;
 }
 
-CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point)
-{
-    CellOptics optics{};
-    for (std::size_t i = 0; i < 4; ++i)
-        optics.at_points[i] = from.optics[cell.points[i]];
-    optics.at_thickest =
-        0.5F * (combined(optics.at_points, point.front_shares) + combined(optics.at_points, point.back_shares));
-    if (from.opacity_at_thickest) {
-        for (glm::vec4& o : optics.at_points)
-            o.w = 0;
-        optics.at_thickest.w =
-            static_cast<float>(-std::expm1(-static_cast<double>(optics.at_thickest.w) * length_at(from, point)));
-    }
-    return optics;
-}
-
 Thickness thickness_of(const VisibleCell& cell, const CellValues& values)
 {
-    const Corners c = corners_of(cell);
     Thickness t{};
     t.kind = cell.kind;
-    if (cell.kind == SilhouetteClass::triangle) {
-        t.inner_shares = shares_at_inner(c);
-        const double area1 = cross(c.second, c.third);
-        const double area2 = cross(c.third, c.fourth);
-        const double area3 = cross(c.fourth, c.second);
-        const double whole = area1 + area2 + area3;
-        t.share_slopes = {across(c.third - c.fourth) / whole, across(c.fourth - c.second) / whole,
-                          across(c.second - c.third) / whole};
-        // One at the far edge of each triangle around the inner point.
-        const auto slope = [&](const glm::dvec2& a, const glm::dvec2& b, double area) {
-            const glm::dvec2 edge = b - a;
-            const double least = std::max(cell.least_width, tiny) * glm::length(edge);
-            const double wide = std::max(whole > 0 ? area : -area, least);
-            return wide == 0 ? glm::vec2(0) : glm::vec2(across(edge) / std::copysign(wide, whole));
-        };
-        t.k1 = slope(c.second, c.third, area1);
-        t.k2 = slope(c.third, c.fourth, area2);
-        t.k3 = slope(c.fourth, c.second, area3);
-        t.swapped = !cell.inner_behind;
-    } else {
-        measure_quad(t, c, cell.least_width);
-    }
+    if (cell.kind == SilhouetteClass::triangle)
+        measure_triangle(t, cell);
+    else
+        measure_quad(t, cell);
     t.depth = t.linear(values.depth);
     t.scalar = t.linear(values.scalar);
     return t;
 }
+
+double Thickness::at(const glm::dvec2& r) const
+{
+    const double t1 = first1 + glm::dot(slope1, r);
+    const double t2 = glm::dot(slope2, r);
+    const double t3 = third.x * t1 + third.y * t2;
+    return kind == SilhouetteClass::triangle ? 1 - std::max({t1, t2, t3})
+                                             : 1 - std::max(t2, opposite * t2) - std::max(t1, t3);
+}
+
 Thickness::Linear Thickness::linear(const std::array<double, 4>& value) const
 {
     if (kind == SilhouetteClass::triangle) {
-        double face = 0;
-        glm::dvec2 slope(0);
-        for (std::size_t i = 0; i < 3; ++i) {
-            face += inner_shares[i] * value[i + 1];
-            slope += value[i + 1] * share_slopes[i];
-        }
-        return {glm::vec2(slope), static_cast<float>(face), static_cast<float>(value[0] - face)};
+        // An outer point's share of a place is 1 - its tent, of what it is at the inner point.
+        const double last = value[outer[2]];
+        const double along1 = shares[0] * (last - value[outer[0]]);
+        const double along2 = shares[1] * (last - value[outer[1]]);
+        const double face = last - along1 - along2;
+        return {face, along1, along2, value[0] - face};
     }
     const double near = mix(value[0], value[1], along_first);
     const double far = mix(value[2], value[3], along_second);
-    return {glm::vec2((value[0] - near) * k1_exact + (value[2] - far) * k2_exact), static_cast<float>(value[0]),
-            static_cast<float>(far - near)};
+    return {near, value[0] - near, value[2] - far, far - near};
 }
 
-std::array<glm::vec4, 5> Thickness::interpolate(const std::array<glm::vec4, 4>& at_points,
-                                                const glm::vec4& at_thickest) const
+std::array<glm::vec4, 5> Thickness::interpolate(const std::array<glm::vec4, 4>& at_points) const
 {
     if (kind == SilhouetteClass::triangle) {
-        glm::vec4 face(0);
-        glm::vec4 slope_x(0);
-        glm::vec4 slope_y(0);
-        for (std::size_t i = 0; i < 3; ++i) {
-            face += static_cast<float>(inner_shares[i]) * at_points[i + 1];
-            slope_x += static_cast<float>(share_slopes[i].x) * at_points[i + 1];
-            slope_y += static_cast<float>(share_slopes[i].y) * at_points[i + 1];
-        }
-        return {at_thickest, slope_x, slope_y, glm::vec4(0), face - at_thickest};
+        const glm::vec4& last = at_points[outer[2]];
+        const glm::vec4 along1 = static_cast<float>(shares[0]) * (last - at_points[outer[0]]);
+        const glm::vec4 along2 = static_cast<float>(shares[1]) * (last - at_points[outer[1]]);
+        const glm::vec4 face = last - along1 - along2;
+        const glm::vec4 thick = 0.5F * (at_points[0] + face);
+        return {thick, along1, along2, glm::vec4(0), face - thick};
     }
-    // Along the nearer edge t1 runs from 1 to opposite1, and along the farther one t2 from 1 to opposite2; g or m is 1
-    // at either end.
-    const glm::vec4 slope1 = (at_points[0] - at_points[1]) / static_cast<float>(1 - opposite1);
-    const glm::vec4 slope2 = (at_points[2] - at_points[3]) / static_cast<float>(1 - opposite2);
-    return {at_thickest + slope1, static_cast<float>(k1_exact.x) * slope1 + static_cast<float>(k2_exact.x) * slope2,
-            static_cast<float>(k1_exact.y) * slope1 + static_cast<float>(k2_exact.y) * slope2,
-            at_points[2] - at_thickest - slope2, at_points[0] - at_thickest - slope1};
+    const glm::vec4 first = at_points[1] - at_points[0];
+    const glm::vec4 second = at_points[3] - at_points[2];
+    const glm::vec4 near = at_points[0] + static_cast<float>(along_first) * first;
+    const glm::vec4 far = at_points[2] + static_cast<float>(along_second) * second;
+    const glm::vec4 thick = 0.5F * (near + far);
+    // Along the nearer edge t1 runs from 1 to 1 / third.x, and along the farther one t2 from 1 to 1 / opposite; g or m
+    // is 1 at either end.
+    const glm::vec4 along1 = first * static_cast<float>(1 / (1 / third.x - 1));
+    const glm::vec4 along2 = second * static_cast<float>(1 / (1 / opposite - 1));
+    return {thick, along1, along2, at_points[2] - thick - along2, at_points[0] - thick - along1};
 }
 
 } // namespace visorder

@@ -28,49 +28,54 @@ CellValues values_of(const VisibleCell& cell, std::span<const float> scalars, do
 
 ThickPoint thick_point(const VisibleCell& cell, const CellValues& values);
 
-/// The optics of a cell's points and of its thickest point, as the integrators linear and exponential have them: colour
-/// averaged between front and back, and averaged extinction or the opacity that comes of it.
-struct CellOptics {
-    std::array<glm::vec4, 4> at_points;
-    glm::vec4 at_thickest;
-};
-CellOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const ThickPoint& point);
-
-/// Entry and exit of rays through a cell, as functions of the pixel r, relative to VisibleCell::points[0], that take a
-/// few multiplications. Let
+/// Entry and exit of rays through a cell, as functions of two tents t1 and t2, which are linear over pixels and rise
+/// from the thickest point to 1 at the silhouette. Of a triangle: one at the side opposite two of the outer points; the
+/// third one, t3 = third.x t1 + third.y t2, at the side opposite the outer point that is closest to the inner one, in
+/// shares of the area. Of a quad: along its two crossing edges, each 1 at its first end and 0 on the other edge. With
 ///
-///     t1 = k1.r,  t2 = k2.r,  t3 = k3.r;         g = 0,              m = max(t1, t2, t3)     of a triangle,
-///     t1 = 1 + k1.r,  t2 = k2.r,  t3 = k3.x t1;  g = max(t2, k3.y t2),  m = max(t1, t3)      of a quad;
+///     g = 0,  m = max(t1, t2, t3)     of a triangle,
+///     g = max(t2, opposite t2),  m = max(t1, t3)     of a quad, where t3 = third.x t1,
 ///
-/// then 1 - g - m is 1 at the thickest point and falls to 0 along the silhouette, linearly on each of Shirley and
-/// Tuchman's triangles, and is negative outside. (Of a quad, t1 and t2 are coordinates along its two crossing edges,
-/// from where they cross.) A narrow face is taken for one of VisibleCell::least_width.
-/// What is linear on the cell's faces, such as a depth, is
+/// 1 - g - m is 1 at the thickest point and falls to 0 along the silhouette, linearly on each of Shirley and Tuchman's
+/// triangles, and is negative outside. What is linear on the cell's faces, such as a depth, is
 ///
-///     base + slope.r + rise g     on one side,     and that + rise (1 - g - m)     on the other.
+///     base + along1 t1 + along2 t2 + rise g     on one side,     and that + rise (1 - g - m)     on the other:
+///
+/// numbers no larger than its values, however narrow the cell. A narrow face is taken for one of
+/// VisibleCell::least_width.
 struct Thickness {
-    glm::vec2 k1, k2, k3;
     struct Linear {
-        glm::vec2 slope;
-        float base, rise;
+        double base, along1, along2, rise;
     };
+
+    SilhouetteClass kind;
+    glm::dvec2 slope1, slope2; ///< of t1 and t2, a pixel
+    double first1;             ///< t1 at VisibleCell::points[0], where t2 is 0
+    glm::dvec2 third;
+    double opposite; ///< of a quad
     Linear depth, scalar;
     bool swapped; ///< whether the second side is the one in front
+
+    /// As shaders take it, (third, opposite, whether it is a triangle):
+    /// g = max(t2 - w t2, z t2),  m = max(t1, x t1 + y t2, w t2).
+    glm::vec4 shape() const { return {third, opposite, kind == SilhouetteClass::triangle ? 1 : 0}; }
+
+    /// 1 - g - m, at a place in pixels from VisibleCell::points[0].
+    double at(const glm::dvec2& r) const;
 
     /// Of what is linear on the faces, by its values at the cell's points.
     Linear linear(const std::array<double, 4>& values) const;
 
-    /// A quantity given at each of the cell's points, and at the thickest point, is
-    /// colours[0] + colours[1] r.x + colours[2] r.y + colours[3] g + colours[4] m.
-    std::array<glm::vec4, 5> interpolate(const std::array<glm::vec4, 4>& at_points, const glm::vec4& at_thickest) const;
+    /// A quantity given at each of the cell's points, at the thickest point the mean of its values in front and behind
+    /// and linear on Shirley and Tuchman's triangles, is
+    /// colours[0] + colours[1] t1 + colours[2] t2 + colours[3] g + colours[4] m.
+    std::array<glm::vec4, 5> interpolate(const std::array<glm::vec4, 4>& at_points) const;
 
-    // Shares of the first two coordinates in an interpolated quantity; see the source.
-    SilhouetteClass kind;
-    std::array<double, 3> inner_shares; ///< of the three outer points at the inner one
-    std::array<glm::dvec2, 3> share_slopes;
-    double along_first, along_second; ///< of a quad, where its edges cross, as a share of the way along each
-    double opposite1, opposite2;      ///< of a quad, t1 at the second point and t2 at the fourth: below 0
-    glm::dvec2 k1_exact, k2_exact;
+    // Of a triangle: the outer points whose opposite sides t1, t2 and t3 are 1 at, and their shares at the inner one.
+    // Of a quad: where its edges cross, as shares of the way along each.
+    std::array<std::uint8_t, 3> outer;
+    std::array<double, 3> shares;
+    double along_first, along_second;
 };
 
 Thickness thickness_of(const VisibleCell& cell, const CellValues& values);

@@ -42,36 +42,37 @@ UploadRing::~UploadRing()
             context_->gl().DeleteSync(fence);
 }
 
-std::byte* UploadRing::next()
+UploadRing::Segment UploadRing::next()
 {
     const GlFunctions& gl = context_->gl();
-    current_ = (current_ + 1) % fences_.size();
-    if (GLsync& fence = fences_[current_]; fence != nullptr) {
+    last_ = (last_ + 1) % fences_.size();
+    if (GLsync& fence = fences_[last_]; fence != nullptr) {
         constexpr GLuint64 a_second = 1'000'000'000;
         while (gl.ClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, a_second) == GL_TIMEOUT_EXPIRED)
             ;
         gl.DeleteSync(fence);
         fence = nullptr;
     }
-    return memory_ + current_ * segment_bytes_;
+    return {{memory_ + last_ * segment_bytes_, segment_bytes_}, last_};
 }
 
-void UploadRing::bind(GLuint binding) const
+void UploadRing::bind(const Segment& segment, GLuint binding) const
 {
     context_->gl().BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, buffer_.id(),
-                                   static_cast<GLintptr>(current_ * segment_bytes_),
+                                   static_cast<GLintptr>(segment.number * segment_bytes_),
                                    static_cast<GLsizeiptr>(segment_bytes_));
 }
 
-void UploadRing::bind_vertices(GLuint vertex_array, std::size_t stride) const
+void UploadRing::bind_vertices(const Segment& segment, GLuint vertex_array, std::size_t stride) const
 {
-    context_->gl().VertexArrayVertexBuffer(
-        vertex_array, 0, buffer_.id(), static_cast<GLintptr>(current_ * segment_bytes_), static_cast<GLsizei>(stride));
+    context_->gl().VertexArrayVertexBuffer(vertex_array, 0, buffer_.id(),
+                                           static_cast<GLintptr>(segment.number * segment_bytes_),
+                                           static_cast<GLsizei>(stride));
 }
 
-void UploadRing::issued()
+void UploadRing::issued(const Segment& segment)
 {
-    fences_[current_] = context_->gl().FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    fences_[segment.number] = context_->gl().FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
 } // namespace visorder

@@ -3,6 +3,7 @@
 #include "graphics/gl_object.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace visorder {
@@ -16,17 +17,22 @@ public:
     UploadRing(const UploadRing&) = delete;
     UploadRing& operator=(const UploadRing&) = delete;
 
-    /// The next segment, once nothing is drawn from it any more. Valid until the next call.
-    std::byte* next();
+    struct Segment {
+        std::span<std::byte> memory;
+        std::size_t number;
+    };
 
-    /// Lets shaders read the segment that `next` gave out, as the storage buffer of this binding.
-    void bind(GLuint binding) const;
+    /// The next segment, once nothing is drawn from it any more. Valid until all others have been given out.
+    Segment next();
 
-    /// Lets the vertices of a vertex array, `stride` bytes each, be read from that segment, as of its binding 0.
-    void bind_vertices(GLuint vertex_array, std::size_t stride) const;
+    /// Lets shaders read a segment, as the storage buffer of this binding.
+    void bind(const Segment& segment, GLuint binding) const;
 
-    /// Says that all draws from that segment have been issued.
-    void issued();
+    /// Lets the vertices of a vertex array, `stride` bytes each, be read from a segment, as of its binding 0.
+    void bind_vertices(const Segment& segment, GLuint vertex_array, std::size_t stride) const;
+
+    /// Says that all draws from a segment have been issued.
+    void issued(const Segment& segment);
 
     std::size_t segment_bytes() const { return segment_bytes_; }
 
@@ -36,7 +42,7 @@ private:
     GlObject buffer_;
     std::byte* memory_ = nullptr;
     std::vector<GLsync> fences_;
-    std::size_t current_ = 0;
+    std::size_t last_ = 0;
 };
 
 } // namespace visorder

@@ -12,33 +12,22 @@ namespace visorder {
 
 namespace {
 
-// Positive to the left of the way from a to b. Coordinates are below 2^22, see RasterLattice.
-std::int64_t side(const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& p)
-{
-    return std::int64_t{b.x - a.x} * (p.y - a.y) - std::int64_t{b.y - a.y} * (p.x - a.x);
-}
-
-bool holds(const glm::ivec2& a, const glm::ivec2& b, const glm::ivec2& c, const glm::ivec2& p)
-{
-    const std::int64_t ab = side(a, b, p);
-    const std::int64_t bc = side(b, c, p);
-    const std::int64_t ca = side(c, a, p);
-    return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
-}
-
-// More are left to the rasteriser.
-constexpr int most_centres_tried = 6;
-
 // Of the length of a ray's way through a cell, as a part of the scene's diameter.
 constexpr double tolerance = 1e-5;
-// What single precision makes of k.r: three roundings, each of 2^-24 at most.
-constexpr double rounding = 3.0 / (1 << 24);
 // Of the distances before the eye of a cell's points: projective depths are interpolated between them.
 constexpr double most_foreshortened = 64;
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
+// Of a face, in pixels: so that nothing is divided by zero.
+constexpr double least_width = 1e-12;
+
+// Times the width of a face.
+double error_of(FragmentPrecision precision, double longest)
 {
-    return a.x * b.y - a.y * b.x;
+    // What single precision makes of k.r: three roundings, each of 2^-24 at most.
+    if (precision == FragmentPrecision::single)
+        return 3 * 0x1p-24 * (longest + 1);
+    const double reach = longest + 2;
+    return 8 * 0x1p-47 * reach * reach;
 }
 
 glm::dvec2 flat(const glm::dvec3& p)
@@ -46,16 +35,17 @@ glm::dvec2 flat(const glm::dvec3& p)
     return {p.x, p.y};
 }
 
-double distance_from_line(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p)
+// Of a triangle, by twice its area, over one side.
+double height(double area, const glm::dvec2& a, const glm::dvec2& b)
 {
     const double length = glm::length(b - a);
-    return length == 0 ? 0 : std::abs(cross(b - a, p - a)) / length;
+    return length == 0 ? 0 : area / length;
 }
 
 } // namespace
 
 VisibleCells::VisibleCells(const Scene& scene, std::span<const std::uint8_t> turned, const ScreenPoints& points,
-                           const Screen& screen, const RasterLattice& lattice)
+                           const Screen& screen, const RasterLattice& lattice, FragmentPrecision precision)
     : vertices_(scene.mesh().vertices),
       turned_(turned),
       points_(points),
@@ -65,36 +55,32 @@ VisibleCells::VisibleCells(const Scene& scene, std::span<const std::uint8_t> tur
       half_step_(lattice.steps / 2),
       shift_(std::countr_zero(static_cast<unsigned>(lattice.steps))),
       inverse_distance_(screen.inverse_distance()),
-      width_scale_(0),
+      length_scale_(0),
+      precision_(precision),
       mirrored_(screen.mirrors())
 {
     double longest = 0; // of the rays through the image's corners
     for (const double x : {first_.x, last_.x + 1})
         for (const double y : {first_.y, last_.y + 1})
             longest = std::max(longest, glm::length(screen.rays() * glm::dvec3(x, y, 1)));
-    width_scale_ = rounding * longest / (tolerance * scene.diameter());
+    length_scale_ = longest / (tolerance * scene.diameter());
 }
 
-bool VisibleCells::covers_a_centre(const std::array<glm::ivec2, 3>& triangle) const
+VisibleCells::Pixels VisibleCells::pixels_in(const glm::ivec2& low, const glm::ivec2& high) const
 {
-    const auto& [a, b, c] = triangle;
     // Pixel i has its centre at i steps + half_step.
-    const glm::ivec2 low = glm::min(glm::min(a, b), c) - half_step_;
-    const glm::ivec2 high = glm::max(glm::max(a, b), c) - half_step_;
     const int mask = (1 << shift_) - 1;
-    const glm::ivec2 first = glm::max(glm::ivec2((low.x + mask) >> shift_, (low.y + mask) >> shift_), first_);
-    const glm::ivec2 last = glm::min(glm::ivec2(high.x >> shift_, high.y >> shift_), last_);
-    const int columns = last.x - first.x + 1;
-    const int rows = last.y - first.y + 1;
-    if (columns <= 0 || rows <= 0)
-        return false;
-    if (columns > most_centres_tried || rows > most_centres_tried || columns * rows > most_centres_tried)
-        return true;
-    for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x)
-            if (holds(a, b, c, {(x << shift_) + half_step_, (y << shift_) + half_step_}))
-                return true;
-    return false;
+    const glm::ivec2 first = low - half_step_ + mask;
+    const glm::ivec2 last = high - half_step_;
+    return {glm::max(glm::ivec2(first.x >> shift_, first.y >> shift_), first_),
+            glm::min(glm::ivec2(last.x >> shift_, last.y >> shift_), last_)};
+}
+
+bool VisibleCells::may_cover(const std::array<glm::ivec2, 3>& triangle) const
+{
+    return !pixels_in(glm::min(glm::min(triangle[0], triangle[1]), triangle[2]),
+                      glm::max(glm::max(triangle[0], triangle[1]), triangle[2]))
+                .none();
 }
 
 VisibleCells::Sight VisibleCells::complete(VisibleCell& cell, const std::uint32_t* v) const
@@ -111,12 +97,14 @@ VisibleCells::Sight VisibleCells::complete(VisibleCell& cell, const std::uint32_
         const std::uint8_t point = silhouette.points[i ^ rotated];
         cell.points[i] = v[point];
         cell.at[i] = at[point];
+        cell.areas[i] = silhouette.areas[i ^ rotated];
     }
+    cell.counterclockwise = silhouette.counterclockwise == (rotated == 0);
     cell.inner_behind = silhouette.kind == SilhouetteClass::triangle && first_behind;
     return judge(cell);
 }
 
-VisibleCells::Precision VisibleCells::precision_for(const VisibleCell& cell) const
+VisibleCells::Precision VisibleCells::precision_for(VisibleCell& cell) const
 {
     double longest = 0;
     double nearest = cell.at[0].z;
@@ -126,11 +114,15 @@ VisibleCells::Precision VisibleCells::precision_for(const VisibleCell& cell) con
         nearest = std::min(nearest, p.z);
         farthest = std::max(farthest, p.z);
     }
+    cell.longest = longest;
+    cell.farthest = farthest;
     const double near_scale = 1 - nearest * inverse_distance_;
     const double far_scale = 1 - farthest * inverse_distance_;
     if (near_scale > most_foreshortened * far_scale)
-        return {std::numeric_limits<double>::infinity(), 0};
-    return {width_scale_ * longest * (farthest - nearest) / (far_scale * far_scale), 2 * rounding * longest};
+        return {std::numeric_limits<double>::infinity(), 0, longest};
+    constexpr double diagonal = 1.4143;
+    const double error = error_of(precision_, longest);
+    return {error * length_scale_ * (farthest - nearest) / (far_scale * far_scale), 2 * error, diagonal * longest};
 }
 
 VisibleCells::Sight VisibleCells::judge(VisibleCell& cell) const
@@ -139,37 +131,48 @@ VisibleCells::Sight VisibleCells::judge(VisibleCell& cell) const
     const double wide = precision.wide_enough;
     if (std::isinf(wide))
         return Sight::apart;
-    cell.least_width = std::min(precision.beside, wide);
+    const bool triangle = cell.kind == SilhouetteClass::triangle;
+    if (!triangle) {
+        // Of either edge first the end that is farther off the other edge's line.
+        for (const std::size_t first : {std::size_t{0}, std::size_t{2}})
+            if (cell.areas[first + 1] < cell.areas[first]) {
+                std::swap(cell.points[first], cell.points[first + 1]);
+                std::swap(cell.at[first], cell.at[first + 1]);
+                std::swap(cell.areas[first], cell.areas[first + 1]);
+                cell.counterclockwise = !cell.counterclockwise;
+            }
+    }
+    const double least_area =
+        triangle ? std::min({cell.areas[1], cell.areas[2], cell.areas[3]}) : std::min(cell.areas[0], cell.areas[2]);
+    cell.least_width = 0;
+    if (least_area > wide * precision.longest)
+        return Sight::clear;
+    cell.least_width = std::max(std::min(precision.beside, wide), least_width);
     const std::array<glm::dvec2, 4> p{flat(cell.at[0]), flat(cell.at[1]), flat(cell.at[2]), flat(cell.at[3])};
     const auto within = [&](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& third, double width) {
         return centre_near(a, b, third, width + precision.beside);
     };
-    if (cell.kind == SilhouetteClass::triangle) {
+    if (triangle) {
         for (std::size_t i = 1; i < 4; ++i) {
-            const glm::dvec2& a = p[i];
-            const glm::dvec2& b = p[i % 3 + 1];
-            const double width = distance_from_line(a, b, p[0]);
+            const std::size_t next = i % 3 + 1;
+            const std::size_t other = next % 3 + 1;
+            const double width = height(cell.areas[other], p[i], p[next]);
             if (width >= wide)
                 continue;
             // Of a cell that is narrow as a whole, nothing is left but what is close to its longest side.
-            const glm::dvec2& third = p[(i + 1) % 3 + 1];
-            const double whole = distance_from_line(a, b, third);
-            if (within(a, b, third, whole < wide ? whole : width))
+            const double whole = height(cell.areas[0], p[i], p[next]);
+            if (within(p[i], p[next], p[other], whole < wide ? whole : width))
                 return Sight::apart;
         }
         return Sight::clear;
     }
     for (const std::size_t first : {std::size_t{0}, std::size_t{2}}) {
+        // The other edge, and how far off its line the ends of this one are.
         const glm::dvec2& a = p[2 - first];
         const glm::dvec2& b = p[3 - first];
-        const double one = distance_from_line(a, b, p[first]);
-        const double other = distance_from_line(a, b, p[first + 1]);
-        if (one < other) {
-            std::swap(cell.points[first], cell.points[first + 1]);
-            std::swap(cell.at[first], cell.at[first + 1]);
-        }
-        const auto [narrower, wider] = std::minmax(one, other);
-        if (narrower < wide && within(a, b, one < other ? p[first] : p[first + 1], wider < wide ? wider : narrower))
+        const double wider = height(cell.areas[first + 1], a, b);
+        const double narrower = height(cell.areas[first], a, b);
+        if (narrower < wide && within(a, b, p[first + 1], wider < wide ? wider : narrower))
             return Sight::apart;
     }
     return Sight::clear;

@@ -21,29 +21,47 @@ struct VisibleCell {
     /// the farther, of either edge first the one that is farther off the other edge's line.
     std::array<PointId, 4> points;
     std::array<glm::dvec3, 4> at; ///< where they are: see ScreenPoints
+    glm::ivec2 low, high;         ///< a box around them, in lattice steps
+    double longest;               ///< pixels along either axis from the first to another one
+    double farthest;              ///< depth
+    std::array<double, 4> areas;  ///< see Silhouette, whose areas these are, in pixels
+    bool counterclockwise;        ///< likewise
     bool inner_behind;            ///< of a triangle: whether the inner point is behind the other three
     /// Pixels: a face narrower than this, seen almost edge-on, is as good as one of this width, for no pixel's centre
     /// is that close to it.
     double least_width;
 };
 
+/// How well fragments know where on the way along a cell's thickness they are. The error, times the width of a face
+/// that is seen almost edge-on, of a cell that is l pixels long:
+enum class FragmentPrecision {
+    single,   ///< l / 2^22, of numbers in single precision
+    composite ///< 8 l^2 / 2^47, of sums of two; see SplitLinear
+};
+
 /// Finds out which cells are seen, and how they lie. What covers no pixel's centre is left out: most, of a large mesh.
 ///
-/// Single precision can tell where a ray passes a face that is seen almost edge-on only if the face is not all too
-/// narrow: where it is w wide, and the cell as many as l long and t thick, the length of the way through the cell is
-/// known to some t l / w in 2^24. Where a pixel's centre lies in such a face, and that would be more than a few
-/// millionths of the scene's diameter, the cell is set apart.
+/// Where a face is seen almost edge-on, the length of a ray's way through the cell is known only if the face is not all
+/// too narrow; see FragmentPrecision. Where a pixel's centre lies in a face so narrow that the error would be more than
+/// a few millionths of the scene's diameter, the cell is set apart.
 ///
 /// Holds references to what it is made from. Threads may share one.
 class VisibleCells {
 public:
     /// `turned`: of each cell, whether its vertices stand in the reverse of VTK's order (1) or not (0).
     VisibleCells(const Scene& scene, std::span<const std::uint8_t> turned, const ScreenPoints& points,
-                 const Screen& screen, const RasterLattice& lattice);
+                 const Screen& screen, const RasterLattice& lattice, FragmentPrecision precision);
 
-    /// Whether the closed triangle, corners in lattice steps, holds the centre of a pixel of the image. True where that
-    /// takes long to find out.
-    bool covers_a_centre(const std::array<glm::ivec2, 3>& triangle) const;
+    /// The pixels of the image with their centres in a box, both ends of which count: first and last, from the image's
+    /// centre. Corners in lattice steps. None if the first is beyond the last.
+    struct Pixels {
+        glm::ivec2 first, last;
+        bool none() const { return first.x > last.x || first.y > last.y; }
+    };
+    Pixels pixels_in(const glm::ivec2& low, const glm::ivec2& high) const;
+
+    /// Whether the box around a triangle, corners in lattice steps, holds the centre of a pixel of the image.
+    bool may_cover(const std::array<glm::ivec2, 3>& triangle) const;
 
     /// Calls `visible(VisibleCell)` for cells (inner numbering) in their sequence, and `apart(cell)` for those of which
     /// a point is off the lattice, and those for which single precision is not enough.
@@ -60,8 +78,9 @@ private:
     struct Precision {
         double wide_enough; ///< pixels: a face as wide is seen well; infinite: none is
         double beside;      ///< pixels: so far beside a narrow face it does not matter
+        double longest;     ///< no side of the silhouette is longer
     };
-    Precision precision_for(const VisibleCell& cell) const;
+    Precision precision_for(VisibleCell& cell) const;
     bool centre_near(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& third, double distance) const;
     /// Whether a cell's vertices stand, as seen, in the reverse of VTK's order.
     bool turned(CellId cell) const { return (turned_[cell] != 0) != mirrored_; }
@@ -74,15 +93,25 @@ private:
     int half_step_;           // a pixel's corner to its centre, in lattice steps
     int shift_;               // a pixel is 2^shift_ lattice steps
     double inverse_distance_;
-    double width_scale_;
+    double length_scale_; // of a difference of depths: how far, in tolerances, rays go
+    FragmentPrecision precision_;
     bool mirrored_;
 };
 
 template <class Visible, class Apart>
 void VisibleCells::visit(std::span<const CellId> cells, Visible&& visible, Apart&& apart) const
 {
-    const int mask = (1 << shift_) - 1;
-    for (const CellId cell : cells) {
+    constexpr std::size_t ahead = 12;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (i + ahead < cells.size()) {
+            // In a function of its own, it would not count: it seems to do nothing.
+            __builtin_prefetch(vertices_.data() + std::size_t{cells[i + ahead]} * 4);
+            for (const std::uint32_t vertex : vertices_.subspan(std::size_t{cells[i + ahead / 2]} * 4, 4)) {
+                __builtin_prefetch(&points_.snapped[vertex]);
+                __builtin_prefetch(&points_.at[vertex]);
+            }
+        }
+        const CellId cell = cells[i];
         const std::uint32_t* v = vertices_.data() + std::size_t{cell} * 4;
         const std::array<std::uint8_t, 4> sides{points_.sides[v[0]], points_.sides[v[1]], points_.sides[v[2]],
                                                 points_.sides[v[3]]};
@@ -95,13 +124,14 @@ void VisibleCells::visit(std::span<const CellId> cells, Visible&& visible, Apart
         const std::array<glm::ivec2, 4> at{points_.snapped[v[0]], points_.snapped[v[1]], points_.snapped[v[2]],
                                            points_.snapped[v[3]]};
         // Rounded, they may be a step too close.
-        const glm::ivec2 low = glm::min(glm::min(at[0], at[1]), glm::min(at[2], at[3])) - half_step_ - 1;
-        const glm::ivec2 high = glm::max(glm::max(at[0], at[1]), glm::max(at[2], at[3])) - half_step_ + 1;
-        // Between the lowest and the highest there must be the centre of a pixel.
-        if ((low.x + mask) >> shift_ > high.x >> shift_ || (low.y + mask) >> shift_ > high.y >> shift_)
+        const glm::ivec2 low = glm::min(glm::min(at[0], at[1]), glm::min(at[2], at[3])) - 1;
+        const glm::ivec2 high = glm::max(glm::max(at[0], at[1]), glm::max(at[2], at[3])) + 1;
+        if (pixels_in(low, high).none())
             continue;
-        VisibleCell seen{};
+        VisibleCell seen; // all of it is set where the cell is seen
         seen.cell = cell;
+        seen.low = low;
+        seen.high = high;
         const Sight sight = complete(seen, v);
         if (sight == Sight::clear)
             visible(seen);

@@ -32,14 +32,16 @@ glm::dvec4 light_of(const OpticalPieces& pieces, const CellWays& ways, const Opt
                     double& share)
 {
     const double one = ray.one - static_cast<double>(ways.reference);
-    const double first = (static_cast<double>(pass.window.x) - one) / ray.run;
-    const double second = (static_cast<double>(pass.window.y) - one) / ray.run;
-    const bool one_way = pass.window.w < 0;
-    const double from = pass.window.z;
-    const double to = std::abs(pass.window.w);
-    const double begin = std::clamp(one_way ? first : std::min(first, second), from, to);
-    const double end = std::clamp(one_way ? second : std::max(first, second), from, to);
-    share = std::max(end - begin, 0.0);
+    const double parts = static_cast<double>(pass.window.z);
+    const double part = static_cast<double>(pass.window.w);
+    double begin = 0, end = 1;
+    if (pass.window.x != pass.window.y) {
+        begin = std::clamp((static_cast<double>(pass.window.x) - one) / ray.run * parts - part, 0.0, 1.0);
+        end = std::clamp((static_cast<double>(pass.window.y) - one) / ray.run * parts - part, 0.0, 1.0);
+    }
+    share = std::max(end - begin, 0.0) / parts;
+    begin = (begin + part) / parts;
+    end = (end + part) / parts;
     if (share <= 0)
         return glm::dvec4(0);
     const double at_begin = ray.one + begin * ray.run;

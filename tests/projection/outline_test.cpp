@@ -53,6 +53,7 @@ std::vector<Drawn> random_cells(int count)
         drawn.cell.kind = s.kind;
         for (std::size_t i = 0; i < 4; ++i) {
             drawn.cell.at[i] = glm::dvec3(p[s.points[i]], 0);
+            drawn.cell.areas[i] = s.areas[i];
             drawn.reproduce += fmt::format("({}, {}) ", p[s.points[i]].x, p[s.points[i]].y);
         }
         cells.push_back(drawn);

@@ -1,5 +1,6 @@
 #include "projection/silhouette.h"
 
+#include "projection/split_linear.h"
 #include "projection/thickness.h"
 
 #include <algorithm>
@@ -70,8 +71,12 @@ VisibleCell visible(const Seen& seen)
     for (std::size_t i = 0; i < 4; ++i) {
         cell.points[i] = seen.silhouette.points[i ^ rotated];
         cell.at[i] = glm::dvec3(seen.points[cell.points[i]], seen.depth[cell.points[i]]);
+        cell.areas[i] = seen.silhouette.areas[i ^ rotated];
     }
+    cell.counterclockwise = seen.silhouette.counterclockwise == (rotated == 0);
     cell.inner_behind = behind;
+    // Where points lie on one another's edges.
+    cell.least_width = 1e-9;
     return cell;
 }
 
@@ -122,13 +127,17 @@ TEST(Silhouette, TrianglesCoverTheHullOnce)
         ++found[static_cast<std::size_t>(s.kind)];
         const long hull = doubled_hull_area(seen.points);
         EXPECT_EQ(s.kind == SilhouetteClass::empty, hull == 0);
+        for (std::size_t i = 0; i < 4 && s.kind != SilhouetteClass::empty; ++i)
+            EXPECT_EQ(s.areas[i], std::abs(doubled_area(p((i + 1) % 4), p((i + 2) % 4), p((i + 3) % 4)))) << i;
         if (s.kind == SilhouetteClass::triangle) {
             EXPECT_EQ(std::abs(doubled_area(p(1), p(2), p(3))), hull);
+            EXPECT_EQ(s.counterclockwise, doubled_area(p(1), p(2), p(3)) > 0);
             EXPECT_EQ(std::abs(doubled_area(p(0), p(1), p(2))) + std::abs(doubled_area(p(0), p(2), p(3))) +
                           std::abs(doubled_area(p(0), p(3), p(1))),
                       hull);
         }
         if (s.kind == SilhouetteClass::quad) {
+            EXPECT_EQ(s.counterclockwise, doubled_area(p(0), p(2), p(1)) > 0);
             EXPECT_EQ(std::abs(doubled_area(p(0), p(1), p(2))) + std::abs(doubled_area(p(0), p(1), p(3))), hull);
             EXPECT_LT(doubled_area(p(0), p(1), p(2)) * doubled_area(p(0), p(1), p(3)), 0);
             EXPECT_LT(doubled_area(p(2), p(3), p(0)) * doubled_area(p(2), p(3), p(1)), 0);
@@ -168,20 +177,84 @@ TEST(Thickness, GivesEntryAndExitAtEveryPixel)
         for (std::size_t i = 0; i < 4; ++i)
             place += shares[i] / sum * glm::dvec2(seen.points[i]);
 
-        const glm::vec2 r(place - glm::dvec2(cell.at[0].x, cell.at[0].y));
-        const bool quad = t.kind == SilhouetteClass::quad;
-        const float t1 = glm::dot(t.k1, r) + (quad ? 1.0F : 0.0F);
-        const float t2 = glm::dot(t.k2, r);
-        const float t3 = quad ? t.k3.x * t1 : glm::dot(t.k3, r);
-        const float g = quad ? std::max(t2, t.k3.y * t2) : 0.0F;
-        const float m = quad ? std::max(t1, t3) : std::max({t1, t2, t3});
-        const float one = t.depth.base + glm::dot(t.depth.slope, r) + t.depth.rise * g;
-        const float other = one + t.depth.rise * (1 - g - m);
+        // As the fragment shader has it.
+        const glm::dvec2 r = place - glm::dvec2(cell.at[0].x, cell.at[0].y);
+        const double t1 = t.first1 + glm::dot(t.slope1, r);
+        const double t2 = glm::dot(t.slope2, r);
+        const glm::dvec4 shape(t.shape());
+        const double g = t2 * (t2 > 0 ? 1 - shape.w : shape.z);
+        const double m = std::max({t1, shape.x * t1 + shape.y * t2, shape.w * t2});
+        const auto of = [&](const Thickness::Linear& l) { return l.base + l.along1 * t1 + l.along2 * t2 + l.rise * g; };
+        const double one = of(t.depth);
+        const double other = one + t.depth.rise * (1 - g - m);
+        EXPECT_NEAR(t.at(r), 1 - g - m, 1e-5 * (1 + std::abs(t1) + std::abs(t2)));
         const auto [front, back] = interval(seen, place);
-        EXPECT_NEAR(t.swapped ? other : one, front, 2e-4);
-        EXPECT_NEAR(t.swapped ? one : other, back, 2e-4);
-        const float one_scalar = t.scalar.base + glm::dot(t.scalar.slope, r) + t.scalar.rise * g;
-        EXPECT_NEAR(one_scalar, 3 * one + place.x, 1e-3);
+        EXPECT_NEAR(t.swapped ? other : one, front, 1e-4);
+        EXPECT_NEAR(t.swapped ? one : other, back, 1e-4);
+        EXPECT_NEAR(of(t.scalar), 3 * one + place.x, 1e-4);
+    }
+}
+
+TEST(Thickness, InterpolatesBetweenThePointsAndTheThickestPoint)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> number(0, 1);
+    for (const Seen& seen : random_cells(5000, 9)) {
+        SCOPED_TRACE(seen.reproduce);
+        if (seen.silhouette.kind == SilhouetteClass::empty)
+            continue;
+        const VisibleCell cell = visible(seen);
+        if (std::min({cell.areas[0], cell.areas[1], cell.areas[2], cell.areas[3]}) == 0)
+            continue;
+        const CellValues of_cell = values(seen, cell);
+        const Thickness t = thickness_of(cell, of_cell);
+        std::array<glm::vec4, 4> at_points{};
+        for (glm::vec4& value : at_points)
+            value = {number(random), number(random), number(random), number(random)};
+        const std::array<glm::vec4, 5> colours = t.interpolate(at_points);
+        const auto at = [&](const glm::dvec3& p) {
+            const glm::dvec2 r(p.x - cell.at[0].x, p.y - cell.at[0].y);
+            const auto t1 = static_cast<float>(t.first1 + glm::dot(t.slope1, r));
+            const auto t2 = static_cast<float>(glm::dot(t.slope2, r));
+            const glm::vec4 shape = t.shape();
+            const float g = t2 * (t2 > 0 ? 1 - shape.w : shape.z);
+            const float m = std::max({t1, shape.x * t1 + shape.y * t2, shape.w * t2});
+            return colours[0] + colours[1] * t1 + colours[2] * t2 + colours[3] * g + colours[4] * m;
+        };
+        const ThickPoint thick = thick_point(cell, of_cell);
+        glm::vec4 expected(0);
+        for (std::size_t i = 0; i < 4; ++i)
+            expected += static_cast<float>(0.5 * (thick.front_shares[i] + thick.back_shares[i])) * at_points[i];
+        EXPECT_LT(glm::length(at(glm::dvec3(thick.at, 0)) - expected), 2e-4F);
+        for (std::size_t i = seen.silhouette.kind == SilhouetteClass::triangle ? 1 : 0; i < 4; ++i)
+            EXPECT_LT(glm::length(at(cell.at[i]) - at_points[i]), 2e-4F) << "point " << i;
+    }
+}
+
+// In single precision, as shaders compute it, of functions so steep that all digits cancel.
+TEST(SplitLinear, IsRightWhereTermsCancel)
+{
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> number(-1, 1);
+    for (int i = 0; i < 20000; ++i) {
+        const double steep = std::pow(10.0, 4 * number(random));
+        const double angle = 4 * number(random);
+        const glm::dvec2 slope = steep * glm::dvec2(std::cos(angle), std::sin(angle));
+        const int reach = 1 << (i % 11);
+        const glm::vec2 p(std::round(reach * number(random)), std::round(reach * number(random)));
+        // Zero near that pixel.
+        const double offset = number(random) - glm::dot(slope, glm::dvec2(p));
+        const SplitLinear split = split_linear(slope, offset, reach);
+        volatile float high = split.high.x * p.x;
+        high = high + split.high.y * p.y;
+        high = high + split.high_offset;
+        volatile float low = split.low.x * p.x;
+        low = low + split.low.y * p.y;
+        low = low + split.low_offset;
+        const double expected = glm::dot(slope, glm::dvec2(p)) + offset;
+        const double bound = 8 * 0x1p-47 * (reach + 2.0) * (reach + 2.0) * steep + 0x1p-23 * std::abs(expected);
+        EXPECT_NEAR(high + low, expected, bound)
+            << "slope " << slope.x << ", " << slope.y << " at " << p.x << ", " << p.y;
     }
 }
 
