@@ -110,9 +110,17 @@ std::optional<Triangle> triangle_around(const Quad& quad, double most_added)
     return Triangle{{corner, v[(best + 2) % 4], v[(best + 3) % 4]}, {whole, whole, whole}};
 }
 
-// Two triangles that are a rectangle along the longest line between two corners: for what is so narrow that its corners
-// would move far.
-Outline rectangle_around(std::span<const glm::dvec2> corners)
+// Fragments take a row that is interpolated over their triangle (see place_vertex_shader). Single precision has it
+// within half a pixel of a triangle that is l pixels long, along either axis, and l^2 / 2^19 high. Half of that height;
+// in lattice steps, as `longest`.
+double margin_for_rows(double longest, const RasterLattice& lattice)
+{
+    return longest * longest * 0x1p-20 / lattice.steps;
+}
+
+// Two triangles that are a rectangle along the longest line between two corners, and reaches so far beyond them: for
+// what is so narrow that its corners would move far.
+Outline rectangle_around(std::span<const glm::dvec2> corners, double beyond)
 {
     glm::dvec2 along(1, 0);
     double longest = 0;
@@ -131,8 +139,8 @@ Outline rectangle_around(std::span<const glm::dvec2> corners)
         low = glm::min(low, place);
         high = glm::max(high, place);
     }
-    low -= margin;
-    high += margin;
+    low -= beyond;
+    high += beyond;
     const auto at = [&](double x, double y) { return rounded(origin + along * x + across * y); };
     Outline outline;
     outline.add(at(low.x, low.y), at(high.x, low.y), at(high.x, high.y));
@@ -148,15 +156,23 @@ constexpr double most_added = 40;
 Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice)
 {
     Outline outline;
+    const double longest = std::max(cell.high.x - cell.low.x, cell.high.y - cell.low.y);
+    const double for_rows = margin_for_rows(longest, lattice);
+    const double widest_margin = std::max(margin, for_rows);
+    // What is moved outwards is twice the margin high.
+    const double least_area = for_rows > margin ? 2 * for_rows * longest : 0;
     std::array<glm::ivec2, 3> corners;
     if (cell.kind == SilhouetteClass::triangle) {
         const Triangle triangle = triangle_of(cell, lattice);
-        if (!move(triangle, corners))
-            return rectangle_around(triangle.corner);
+        if (triangle.areas[0] < least_area || !move(triangle, corners))
+            return rectangle_around(triangle.corner, widest_margin);
         outline.add(corners[0], corners[1], corners[2]);
         return outline;
     }
     const Quad quad = quad_of(cell, lattice);
+    // Of the two triangles that it would be drawn as.
+    if (std::min(quad.areas[1], quad.areas[3]) < least_area)
+        return rectangle_around(quad.corner, widest_margin);
     if (const auto around = triangle_around(quad, most_added * lattice.steps * lattice.steps))
         if (move(*around, corners) && within(corners[0], lattice)) {
             outline.add(corners[0], corners[1], corners[2]);
@@ -164,7 +180,7 @@ Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice)
         }
     std::array<glm::ivec2, 4> of_quad;
     if (!move(quad, of_quad))
-        return rectangle_around(quad.corner);
+        return rectangle_around(quad.corner, widest_margin);
     outline.add(of_quad[0], of_quad[1], of_quad[2]);
     outline.add(of_quad[0], of_quad[2], of_quad[3]);
     return outline;
@@ -177,7 +193,7 @@ Outline fan_around(const Polygon<count>& polygon, const glm::ivec2& middle)
 {
     std::array<glm::ivec2, count> corners;
     if (!move(polygon, corners))
-        return rectangle_around(polygon.corner);
+        return rectangle_around(polygon.corner, margin);
     Outline outline;
     for (std::size_t i = 0; i < count; ++i)
         outline.add(middle, corners[i], corners[(i + 1) % count]);

@@ -15,7 +15,7 @@ std::string header(Integrator integrator, bool software)
 {
     std::string text = fmt::format("#version 450 core\n#define PLACE_OFFSET {}.0\n", PackedPlace::offset);
     if (software)
-        text += "#define CHANNELS_APART\n#define ROWS\n";
+        text += "#define CHANNELS_APART\n";
     if (needs_optics(integrator))
         text += "#define OPTICS\n";
     if (integrator == Integrator::linear)
@@ -348,6 +348,11 @@ void main()
 
 } // namespace
 
+bool interpolates_rows(Projector projector, bool software)
+{
+    return software && projector == Projector::silhouette;
+}
+
 ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool perspective, bool software)
 {
     std::string start = header(integrator, software);
@@ -359,6 +364,7 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
     const SilhouetteLayout layout(integrator, passes);
     start += perspective && integrator != Integrator::linear ? "#define PERSPECTIVE\n" : "";
     start += passes ? "#define PASSES\n" : "";
+    start += interpolates_rows(projector, software) ? "#define ROWS\n" : "";
     return {start + (in_shader ? thick_vertex_shader() : layout.vertex_shader()),
             start + result_text + layout.declarations() +
                 (passes ? optical_pass_shader() : integrator_shader(integrator)) + silhouette_text};

@@ -411,9 +411,10 @@ void ProjectionRenderer::set_up_triangles(Program& program, const Screen& screen
     const bool planes = options_.projector == Projector::planes;
     const bool in_shader = options_.projector == Projector::thick_gpu;
     const bool linear = options_.integrator == Integrator::linear;
-    if (planes || in_shader || software_ || (screen.perspective() && !linear))
+    const bool rows = interpolates_rows(options_.projector, software_);
+    if (planes || in_shader || rows || (screen.perspective() && !linear))
         program.set("centre", glm::vec2(screen.centre()));
-    if (planes || in_shader || software_)
+    if (planes || in_shader || rows)
         program.set("half_range", static_cast<float>(lattice_.half_range));
     if (planes)
         program.set("inverse_distance", static_cast<float>(screen.inverse_distance()));

@@ -28,8 +28,8 @@ struct RenderOptions {
     Projector projector = Projector::silhouette;
     Integrator integrator = Integrator::exact;
     int blending_bits = 32; ///< of a channel of the framebuffer: 32 or 16 (floats), or 8
-    /// Whether each channel is blended in an image of its own and rows are interpolated: the same picture, quicker
-    /// where the processor draws. Chosen by that if it is not set.
+    /// Whether each channel is blended in an image of its own and, by silhouettes, rows are interpolated: the same
+    /// picture, quicker where the processor draws. Chosen by that if it is not set.
     std::optional<bool> for_software;
     TableOptions tables;
 };

@@ -64,9 +64,7 @@ std::string place_vertex_shader()
 {
     return R"(
 flat out vec3 place; // takes gl_FragCoord.x and row or gl_FragCoord.y to pixels from the PackedPlace; and its sign
-#if defined ROWS || defined PERSPECTIVE
 uniform vec2 centre; // of the image, pixels
-#endif
 #ifdef ROWS
 uniform float half_range;
 noperspective out float row;

@@ -17,9 +17,7 @@ struct Cell {
 };
 layout(std430, binding = 1) readonly buffer Cells { Cell cells[]; };
 uniform float lattice_steps;
-#ifndef ROWS
 uniform float half_range;
-#endif
 uniform double inverse_distance;
 
 flat out vec4 shape, tents_high, tents_low, tent_offsets;

@@ -20,6 +20,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,65 @@ TEST(Renderer, DecomposesCellsInTheShaderAsOnTheProcessor)
                 EXPECT_LT(errors.largest, 5e-5);
             }
         }
+}
+
+TEST(Renderer, DrawsTheSameInTheFormForSoftware)
+{
+    constexpr glm::ivec2 size(64);
+    const Scene& scene = scene_of("slivers:400");
+    const TransferFunction function = function_for(scene, "steps");
+    for (const Projector projector : projectors())
+        for (const Integrator integrator : integrators()) {
+            if (projector == Projector::planes && integrator == Integrator::linear)
+                continue;
+            RenderOptions options = with(projector, integrator);
+            options.for_software = true;
+            ProjectionRenderer software(context(), scene, function, options);
+            options.for_software = false;
+            ProjectionRenderer any(context(), scene, function, options);
+            std::vector<NamedView> views = random_views(scene, 1, 17, size);
+            views.push_back({"inside", inside(scene, 100, size)});
+            for (const NamedView& view : views) {
+                SCOPED_TRACE(reproduce("slivers:400", view, options));
+                const Order order = order_for(scene, view.view);
+                EXPECT_LE(image_errors(software.draw(view.view, order), any.draw(view.view, order)).largest, 1e-6);
+            }
+        }
+}
+
+// Interpolated over a triangle as long as the image and far narrower than a pixel, rows are no longer right.
+TEST(Renderer, DrawsLongSliversInTheFormForSoftware)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> anywhere(-1, 1);
+    const auto place = [&] {
+        const double x = anywhere(random);
+        const double y = anywhere(random);
+        return glm::dvec3(x, y, anywhere(random));
+    };
+    Mesh mesh;
+    for (const double width : {3e-4, 1e-4, 3e-5})
+        for (int i = 0; i < 100; ++i) {
+            const glm::dvec3 end = place() * glm::dvec3(1, 1, 0.1);
+            const auto first = static_cast<std::uint32_t>(mesh.points.size());
+            mesh.points.insert(mesh.points.end(), {end, -end, anywhere(random) * end + width * place(),
+                                                   anywhere(random) * end + width * place()});
+            mesh.scalars.insert(mesh.scalars.end(), {0, 0.3F, 0.7F, 1});
+            mesh.add(CellShape::tetrahedron, std::array<std::uint32_t, 4>{first, first + 1, first + 2, first + 3});
+        }
+    const Scene scene(mesh);
+    const TransferFunction opaque({{0, 1e6, glm::dvec3(1, 0.5, 0.25)}});
+    RenderOptions options;
+    options.for_software = true;
+    ProjectionRenderer software(context(), scene, opaque, options);
+    options.for_software = false;
+    ProjectionRenderer any(context(), scene, opaque, options);
+    for (const glm::dvec3& direction : {glm::dvec3(0, 0, 1), glm::dvec3(0.1, 0.2, 1), glm::dvec3(-0.2, 0.1, 1)}) {
+        const NamedView view{"its flat side", parallel(direction, glm::dvec3(0), 1, glm::ivec2(512))};
+        SCOPED_TRACE(reproduce("slivers across each other", view, options));
+        const Order order = order_for(scene, view.view);
+        EXPECT_LE(image_errors(software.draw(view.view, order), any.draw(view.view, order)).largest, 1e-6);
+    }
 }
 
 TEST(Renderer, DrawsWhatIsOpaqueManyTimesOver)
