@@ -58,6 +58,7 @@ private:
     static constexpr std::size_t looks_at_once = 16;         // of one thread
     static constexpr std::size_t prefetch_rows = 32;
     static constexpr std::size_t prefetch_states = 12;
+    static constexpr std::size_t prefetch_cells = 8;
 
     static constexpr State at_boundary = State{1} << row;
     static constexpr State one = State{2} << row;
@@ -177,8 +178,13 @@ private:
             sorter_.looking_.insert(sorter_.looking_.end(), deferred.begin(), deferred.end());
             deferred.clear();
         }
-        for (const std::uint32_t cell : sorter_.looking_)
-            each_face(cell, sorter_.cells_[cell].exits, [&](std::uint32_t face) { sorter_.exits_.push_back(face); });
+        const std::span<const std::uint32_t> looking = sorter_.looking_;
+        for (std::size_t i = 0; i < looking.size(); ++i) {
+            if (i + prefetch_cells < looking.size())
+                __builtin_prefetch(&sorter_.cells_[looking[i + prefetch_cells]]);
+            each_face(looking[i], sorter_.cells_[looking[i]].exits,
+                      [&](std::uint32_t face) { sorter_.exits_.push_back(face); });
+        }
         sorter_.covered_.resize(sorter_.exits_.size());
     }
 
@@ -238,7 +244,7 @@ private:
 
     void defer(std::uint32_t boundary_cell)
     {
-        const std::uint8_t slab = sorter_.cells_[boundary_cell].slab;
+        const std::uint8_t slab = sorter_.slabs_[boundary_cell];
         sorter_.deferred_[slab].push_back(boundary_cell);
         farthest_ = std::max<std::size_t>(farthest_, slab + 1u);
     }
@@ -290,7 +296,7 @@ private:
         const std::uint32_t boundary_cell = sorter_.boundary_cells_.of_cell(cell);
         if ((sorter_.blocked_[boundary_cell] -= BspXmpvo::not_ready) != 0)
             return false;
-        if (sorter_.cells_[boundary_cell].slab != BspXmpvo::no_slab) {
+        if (sorter_.slabs_[boundary_cell] != BspXmpvo::no_slab) {
             defer(boundary_cell);
             return false;
         }

@@ -65,6 +65,7 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
     const std::span<const CellFace> faces = tree_.faces();
     roles_.resize(faces.size());
     cells_.resize(boundary_cells_.count());
+    slabs_.resize(boundary_cells_.count());
     for (std::vector<std::uint32_t>& deferred : deferred_)
         deferred.clear();
     const Depth depth(scene_.bounds(), eye, slab_count);
@@ -73,7 +74,8 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
         oneapi::tbb::blocked_range<std::size_t>(0, boundary_cells_.count(), 1024), [&](const auto& range) {
             for (std::size_t cell = range.begin(); cell < range.end(); ++cell) {
                 const auto [begin, end] = boundary_cells_.faces(cell);
-                BoundaryCell of_cell{faces[begin].cell, begin, 0, 0, no_slab, false, no_cell, no_cell, 0, 0};
+                BoundaryCell of_cell{faces[begin].cell, begin, 0, 0, false, no_cell, no_cell, 0, 0};
+                std::uint8_t slab_of_cell = no_slab;
                 for (std::uint32_t i = begin; i < end; ++i) {
                     const std::uint8_t role = corners.has(i) ? role_of(i, eye) : std::uint8_t{0};
                     roles_[i] = role;
@@ -82,9 +84,10 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
                         continue;
                     of_cell.exits |= static_cast<std::uint8_t>(1u << (i - begin));
                     const std::uint8_t slab = depth.slab(corners.points()[corners.of(i)[0]]);
-                    of_cell.slab = of_cell.slab == no_slab ? slab : std::max(of_cell.slab, slab);
+                    slab_of_cell = slab_of_cell == no_slab ? slab : std::max(slab_of_cell, slab);
                 }
                 cells_[cell] = of_cell;
+                slabs_[cell] = slab_of_cell;
             }
         });
     cover_search_.look_from(eye, roles_, ranks_);
@@ -192,7 +195,7 @@ std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(ranks_) + size_of(cells_) + size_of(fronts_) + size_of(blocked_) +
+           size_of(ranks_) + size_of(cells_) + size_of(slabs_) + size_of(fronts_) + size_of(blocked_) +
            std::accumulate(deferred_.begin(), deferred_.end(), std::size_t{0},
                            [&](std::size_t sum, const auto& deferred) { return sum + size_of(deferred); }) +
            size_of(queue_) + cover_search_.bytes() + size_of(all_relations_.relations) + topological_sort_.bytes();

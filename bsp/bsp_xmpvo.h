@@ -78,13 +78,13 @@ private:
         CellId cell;
         std::uint32_t first_face;
         std::uint8_t exits, entries; // bits of its faces, from the first on
-        std::uint8_t slab;           // of depth, if it has exit faces
         bool is_listed;
         std::uint32_t waiting_head;           // of the cells that wait for it
         std::uint32_t next;                   // in the list of those that wait for the same cell
         std::uint32_t front_begin, front_end; // in fronts_: those that cover it where they touch
     };
     std::vector<BoundaryCell> cells_;
+    std::vector<std::uint8_t> slabs_; // of depth, each one's that has exit faces
     std::vector<std::uint32_t> fronts_;
     // Of a boundary cell: how many faces it covers that touch its own and are not listed, and this while the cells
     // behind its interior exit faces are not all listed.
