@@ -54,7 +54,8 @@ private:
     static constexpr std::uint32_t none = BspXmpvo::no_cell; // and no face
     static constexpr std::size_t worth_a_team = 1 << 12;     // boundary cells; with fewer, one thread does all
     static constexpr std::size_t most_members = 16;          // in a team
-    static constexpr std::size_t least_looks = 16;           // in a step, if there are as many to do
+    static constexpr std::size_t least_looks = 32;           // of cells in a step, if there are as many to do
+    static constexpr std::size_t most_looks = 64;            // likewise: steps of one size keep all threads busy
     static constexpr std::size_t looks_at_once = 16;         // of one thread
     static constexpr std::size_t prefetch_rows = 32;
     static constexpr std::size_t prefetch_states = 12;
@@ -168,15 +169,18 @@ private:
         }
     }
 
-    // Of the ready cells that are still to look, those in the farthest slabs, and their exit faces.
+    // Of the ready cells that are still to look, some in the farthest slabs, and their exit faces.
     void take_farthest()
     {
         sorter_.looking_.clear();
         sorter_.exits_.clear();
-        for (; farthest_ > 0 && sorter_.looking_.size() < least_looks; --farthest_) {
+        while (farthest_ > 0 && sorter_.looking_.size() < least_looks) {
             std::vector<std::uint32_t>& deferred = sorter_.deferred_[farthest_ - 1];
-            sorter_.looking_.insert(sorter_.looking_.end(), deferred.begin(), deferred.end());
-            deferred.clear();
+            const std::size_t kept = deferred.size() - std::min(deferred.size(), most_looks - sorter_.looking_.size());
+            sorter_.looking_.insert(sorter_.looking_.end(), deferred.begin() + static_cast<std::ptrdiff_t>(kept),
+                                    deferred.end());
+            deferred.resize(kept);
+            farthest_ -= kept == 0 ? 1 : 0;
         }
         const std::span<const std::uint32_t> looking = sorter_.looking_;
         for (std::size_t i = 0; i < looking.size(); ++i) {

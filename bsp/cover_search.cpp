@@ -93,7 +93,7 @@ bool CoverSearch::covers(std::uint32_t f, std::uint32_t g, bool nearer, Tests& t
 {
     ++tests.all;
     const Shared shared = has_images_ ? images_.shared(f, g) : Shared::unknown;
-    return shared != Shared::nothing && ((nearer && shared == Shared::area) || covers_exactly(f, g, tests));
+    return shared != Shared::nothing && ((nearer && shared == Shared::area) || covers_exactly(f, g, shared, tests));
 }
 
 bool CoverSearch::covers(std::uint32_t f, const TouchingFaces::Touching& g, Tests& tests) const
@@ -112,16 +112,17 @@ bool CoverSearch::covers(std::uint32_t f, const TouchingFaces::Touching& g, Test
         return true;
     if (sides != 0 && (sides & ~g.inside) == 0)
         return false;
-    return covers_exactly(f, g.face, tests);
+    return covers_exactly(f, g.face, shared, tests);
 }
 
-bool CoverSearch::covers_exactly(std::uint32_t f, std::uint32_t g, Tests& tests) const
+bool CoverSearch::covers_exactly(std::uint32_t f, std::uint32_t g, Shared shared, Tests& tests) const
 {
     const SeenFace front = corners_.seen(f, eye_), back = corners_.seen(g, eye_);
-    if (surely_not_nearer(front, back))
+    // Of a solid, CornerHeights has been asked.
+    if (scene_.is_surface() && surely_not_nearer(front, back))
         return false;
     ++tests.exact;
-    const Overlap overlap = face_overlap(front, back, eye_);
+    const Overlap overlap = shared == Shared::area ? depth_overlap(front, back, eye_) : face_overlap(front, back, eye_);
     return overlap == Overlap::nearer || (overlap == Overlap::coincident && !scene_.is_surface());
 }
 

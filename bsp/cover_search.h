@@ -69,7 +69,7 @@ private:
     bool relate(std::uint32_t f, std::uint32_t g) const;
     bool covers(std::uint32_t f, std::uint32_t g, bool nearer, Tests& tests) const;
     bool covers(std::uint32_t f, const TouchingFaces::Touching& g, Tests& tests) const;
-    bool covers_exactly(std::uint32_t f, std::uint32_t g, Tests& tests) const;
+    bool covers_exactly(std::uint32_t f, std::uint32_t g, Shared shared, Tests& tests) const;
     void set_boxes(std::uint32_t face, const ProjectionCharts& charts, Ranks ranks);
 
     const Scene& scene_;

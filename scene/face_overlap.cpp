@@ -361,9 +361,11 @@ Overlap face_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye
 {
     if (f.turn == Sign::zero || g.turn == Sign::zero)
         return Overlap::disjoint;
-    const Viewpoint from(eye);
-    if (share_no_area(from, f, g))
-        return Overlap::disjoint;
+    return share_no_area(Viewpoint(eye), f, g) ? Overlap::disjoint : depth_overlap(f, g, eye);
+}
+
+Overlap depth_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye)
+{
     const PlaneSides f_at_g = plane_sides(g, f);
     if (!f_at_g.some_near && !f_at_g.some_far)
         return Overlap::coincident;
@@ -376,7 +378,7 @@ Overlap face_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye
         return Overlap::nearer;
     if (!g_at_f.some_far)
         return Overlap::farther;
-    return compare_at_extreme_rays(from, f, g, f_at_g, g_at_f);
+    return compare_at_extreme_rays(Viewpoint(eye), f, g, f_at_g, g_at_f);
 }
 
 bool surely_not_nearer(const SeenFace& f, const SeenFace& g)

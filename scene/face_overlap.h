@@ -40,6 +40,9 @@ SeenFace seen_face(const Mesh& mesh, const CellFace& face, const glm::dvec4& eye
 /// area and overlaps nothing.
 Overlap face_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye);
 
+/// The same of two faces whose projections are known to share an area.
+Overlap depth_overlap(const SeenFace& f, const SeenFace& g, const glm::dvec4& eye);
+
 /// A quick test that is sometimes enough: whether G lies in front of F's plane, or F behind G's, for sure. Then F is
 /// nearer than G nowhere, and the two neither cross nor coincide.
 bool surely_not_nearer(const SeenFace& f, const SeenFace& g);
