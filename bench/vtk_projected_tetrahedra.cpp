@@ -26,13 +26,13 @@
 #include <ctime>
 #include <exception>
 #include <fmt/format.h>
+#include <future>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
 #include <numeric>
 #include <oneapi/tbb/task_arena.h>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 #include <vtkAutoInit.h>
@@ -275,10 +275,10 @@ int run(int argc, char** argv)
     Times vtk_times;
     std::vector<Times> times(options.size());
     std::string gl_renderer;
-    // On a thread of its own all the time, for its context stays current there.
+    // On threads of its own, so that its context and VTK's are not in each other's way.
     std::unique_ptr<Ours> ours;
     oneapi::tbb::task_arena arena;
-    const auto ours_do = [&](auto&& work) { std::thread([&] { arena.execute(work); }).join(); };
+    const auto ours_do = [&](auto&& work) { std::async(std::launch::async, [&] { arena.execute(work); }).get(); };
     ours_do([&] {
         ours = std::make_unique<Ours>(scene, function, sorter_name);
         gl_renderer = ours->gl_renderer();

@@ -5,7 +5,6 @@
 #include "sorting/team.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -25,9 +24,8 @@ namespace visorder {
 template <int row, class State>
 class BspMerge {
 public:
-    BspMerge(BspXmpvo& sorter, State* state, const glm::dvec4& eye, Order& order)
+    BspMerge(BspXmpvo& sorter, State* state, Order& order)
         : sorter_(sorter),
-          eye_(eye),
           state_(state),
           neighbour_(row > 0 ? sorter.scene_.adjacency().neighbour.data() : nullptr),
           order_(order.back_to_front.data())
@@ -327,7 +325,6 @@ private:
     }
 
     BspXmpvo& sorter_;
-    const glm::dvec4& eye_;
     State* state_;
     const CellId* neighbour_;
     CellId* order_;

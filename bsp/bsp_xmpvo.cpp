@@ -152,12 +152,12 @@ std::uint8_t BspXmpvo::role_of(std::uint32_t face, const glm::dvec4& eye) const
 }
 
 template <int row, class State>
-bool BspXmpvo::sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order)
+bool BspXmpvo::sort_by(LargeArray<State>& state, Order& order)
 {
     const CellId cells = scene_.cell_count();
     state.resize(cells);
     resize_on_large_pages(order.back_to_front, cells);
-    BspMerge<row, State> merge(*this, state.data(), eye, order);
+    BspMerge<row, State> merge(*this, state.data(), order);
     if (merge.run() < cells)
         return false;
     order.layer_begin.clear();
@@ -174,9 +174,9 @@ void BspXmpvo::sort(const View& view, Order& order)
                                          signs_.evaluate(scene_, view.eye);
                                  });
     look_at_faces(view.eye);
-    const bool complete = scene_.is_surface()                  ? sort_by<0>(small_state_, view.eye, order)
-                          : scene_.adjacency().row_length == 4 ? sort_by<4>(small_state_, view.eye, order)
-                                                               : sort_by<6>(large_state_, view.eye, order);
+    const bool complete = scene_.is_surface()                  ? sort_by<0>(small_state_, order)
+                          : scene_.adjacency().row_length == 4 ? sort_by<4>(small_state_, order)
+                                                               : sort_by<6>(large_state_, order);
     if (!complete)
         sort_with_cycles(view.eye, order);
 }
@@ -194,11 +194,18 @@ void BspXmpvo::sort_with_cycles(const glm::dvec4& eye, Order& order)
 std::size_t BspXmpvo::bytes() const
 {
     const auto size_of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
-    return tree_.bytes() + signs_.bytes() + size_of(small_state_) + size_of(large_state_) + size_of(roles_) +
-           size_of(ranks_) + size_of(cells_) + size_of(slabs_) + size_of(fronts_) + size_of(blocked_) +
-           std::accumulate(deferred_.begin(), deferred_.end(), std::size_t{0},
-                           [&](std::size_t sum, const auto& deferred) { return sum + size_of(deferred); }) +
-           size_of(queue_) + cover_search_.bytes() + size_of(all_relations_.relations) + topological_sort_.bytes();
+    const auto sum_of = [&](const auto& arrays) {
+        return std::accumulate(arrays.begin(), arrays.end(), std::size_t{0},
+                               [&](std::size_t sum, const auto& array) { return sum + size_of(array); });
+    };
+    const std::size_t of_workspaces =
+        std::accumulate(workspaces_.begin(), workspaces_.end(), std::size_t{0},
+                        [](std::size_t sum, const CoverSearch::Workspace& one) { return sum + one.bytes(); });
+    return tree_.bytes() + boundary_cells_.bytes() + cover_search_.bytes() + signs_.bytes() + size_of(small_state_) +
+           size_of(large_state_) + size_of(roles_) + size_of(ranks_) + size_of(cells_) + size_of(slabs_) +
+           size_of(fronts_) + size_of(blocked_) + sum_of(deferred_) + size_of(looking_) + size_of(exits_) +
+           size_of(covered_) + size_of(listed_in_step_) + size_of(queue_) + sum_of(touching_covers_) + of_workspaces +
+           size_of(all_relations_.relations) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const

@@ -11,9 +11,10 @@
 #include "sorting/topological_sort.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec4.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace visorder {
@@ -35,8 +36,8 @@ public:
     Guarantee guarantee() const override { return Guarantee::exact; }
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
-    /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pair tests", of an exit face and a pending one,
-    /// how many of them were "exact tests", and the "relations" they found.
+    /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pair tests", of an exit face and an entry face,
+    /// how many of them were "exact tests", and the "relations" that were found by tests or known before.
     std::vector<Statistic> statistics() const override;
 
 private:
@@ -58,7 +59,7 @@ private:
     void relate_touching();
     std::uint8_t role_of(std::uint32_t face, const glm::dvec4& eye) const;
     template <int row, class State>
-    bool sort_by(LargeArray<State>& state, const glm::dvec4& eye, Order& order);
+    bool sort_by(LargeArray<State>& state, Order& order);
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
     void sort_with_cycles(const glm::dvec4& eye, Order& order);
 

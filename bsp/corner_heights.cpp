@@ -12,7 +12,7 @@ namespace visorder {
 
 namespace {
 
-// The filter of FaceSigns (face_planes.cpp) is off by less than 2^-21 sum |e_i| + 2^-19 |w|; here the eye is a point of
+// The filter of FaceSigns (unit_planes.cpp) is off by less than 2^-21 sum |e_i| + 2^-19 |w|; here the eye is a point of
 // the scene, whose unit coordinates are within [-1, 1], and w = 1. Planes that are all zeros decide nothing.
 constexpr float error_bound = 0x1p-18f;
 

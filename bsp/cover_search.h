@@ -18,8 +18,8 @@
 namespace visorder {
 
 /// Finds, from one eye after the other, which entry faces a boundary exit face covers: exactly, behind quick tests. Of
-/// those that touch it, all, in one sweep along the boundary; of the others, when asked for, one that is pending, and
-/// by then few are that may be covered.
+/// those that touch it (see TouchingFaces::holds), all, in one sweep along the boundary; of the others, when asked for,
+/// one that is pending, and by then few are that may be covered.
 ///
 /// Any number of threads may `find` side by side, each with a Workspace of its own; the rest is done alone.
 class CoverSearch {
@@ -41,7 +41,7 @@ public:
 
     const FaceCorners& corners() const { return corners_; }
 
-    /// From this eye on: the faces' roles there, 0 of a face that has none, and their ranks. On all threads. Both spans
+    /// From this eye on: the faces' roles there, 0 of a face that has none, and their ranks. On all threads. `roles`
     /// must live until the next call.
     void look_from(const glm::dvec4& eye, std::span<const std::uint8_t> roles, std::span<const Ranks> ranks);
 
@@ -90,6 +90,8 @@ private:
 class CoverSearch::Workspace {
 public:
     Tests tests; ///< since it was last set
+
+    std::size_t bytes() const { return found_.bytes() + end_.capacity() * sizeof(std::uint32_t); }
 
 private:
     friend class CoverSearch;

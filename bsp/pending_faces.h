@@ -41,6 +41,7 @@ public:
     public:
         void clear() { count_ = 0; }
         std::span<std::uint32_t> faces() { return {faces_.data(), count_}; }
+        std::size_t bytes() const { return faces_.capacity() * sizeof(std::uint32_t); }
 
     private:
         friend class PendingFaces;

@@ -11,7 +11,7 @@ namespace visorder {
 
 /// A tetrahedron for which every pixel finds out by itself, in double precision, whether its ray passes through it: one
 /// with a point behind the eye or so close to it, or so far off the image, that it has no place on the rasteriser's
-/// lattice; or one with a face that single precision does not see well (see VisibleCells).
+/// lattice; or is too large for it, or one with a face that is not seen well (see VisibleCells).
 ///
 /// A ray passes a face if it passes all its edges on one side. All cells around an edge have its two points in the same
 /// order and so agree, whatever is lost to rounding, on which side that is: no ray slips between two of them. Depths

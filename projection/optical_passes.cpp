@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace visorder {
@@ -72,6 +71,9 @@ void find_optical_passes(const OpticalPieces& pieces, const CellWays& ways, std:
                 if (count > 1) {
                     const float low = &piece == first ? -beyond : piece.begin - ways.reference;
                     const float high = &piece == last ? beyond : piece.end - ways.reference;
+                    // Too narrow for single precision; equal numbers would say all of the part.
+                    if (low == high)
+                        continue;
                     pass.window.x = rising ? low : high;
                     pass.window.y = rising ? high : low;
                 }

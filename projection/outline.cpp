@@ -65,15 +65,19 @@ bool move(const Polygon<count>& polygon, std::array<glm::ivec2, count>& moved)
         way[i] = margin * (std::abs(side[i].x) + std::abs(side[i].y));
         inverse[i] = count == 3 && i > 0 ? inverse[0] : 1 / polygon.areas[i];
     }
+    std::array<glm::dvec2, count> off;
     bool near = true;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t before = (i + count - 1) % count;
-        const glm::dvec2 off = (way[i] * side[before] - way[before] * side[i]) * inverse[i];
+        off[i] = (way[i] * side[before] - way[before] * side[i]) * inverse[i];
         // Written so that a side without length, too, goes far.
-        near = near && std::abs(off.x) < farthest && std::abs(off.y) < farthest;
-        moved[i] = rounded(polygon.corner[i] + off);
+        near = near && std::abs(off[i].x) < farthest && std::abs(off[i].y) < farthest;
     }
-    return near;
+    if (!near)
+        return false;
+    for (std::size_t i = 0; i < count; ++i)
+        moved[i] = rounded(polygon.corner[i] + off[i]);
+    return true;
 }
 
 bool within(const glm::ivec2& place, const RasterLattice& lattice)
@@ -189,11 +193,12 @@ Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice)
 namespace {
 
 template <std::size_t count>
-Outline fan_around(const Polygon<count>& polygon, const glm::ivec2& middle)
+Outline fan_around(const Polygon<count>& polygon, const glm::dvec2& thickest)
 {
     std::array<glm::ivec2, count> corners;
     if (!move(polygon, corners))
         return rectangle_around(polygon.corner, margin);
+    const glm::ivec2 middle = rounded(thickest);
     Outline outline;
     for (std::size_t i = 0; i < count; ++i)
         outline.add(middle, corners[i], corners[(i + 1) % count]);
@@ -204,7 +209,7 @@ Outline fan_around(const Polygon<count>& polygon, const glm::ivec2& middle)
 
 Outline fan_of(const VisibleCell& cell, const glm::dvec2& thickest, const RasterLattice& lattice)
 {
-    const glm::ivec2 middle = rounded(thickest * static_cast<double>(lattice.steps));
+    const glm::dvec2 middle = thickest * static_cast<double>(lattice.steps);
     return cell.kind == SilhouetteClass::triangle ? fan_around(triangle_of(cell, lattice), middle)
                                                   : fan_around(quad_of(cell, lattice), middle);
 }

@@ -3,6 +3,7 @@
 #include "projection/integrator_shaders.h"
 
 #include <fmt/format.h>
+#include <initializer_list>
 
 namespace visorder {
 

@@ -4,8 +4,10 @@
 #include "projection/visible_cells.h"
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 
 namespace visorder {
 

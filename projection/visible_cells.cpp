@@ -17,6 +17,10 @@ constexpr double tolerance = 1e-5;
 // Of the distances before the eye of a cell's points: projective depths are interpolated between them.
 constexpr double most_foreshortened = 64;
 
+// Of a cell, in pixels along either axis from its first point: outlines of longer slivers, which are made wider (see
+// outline_of), would leave the lattice.
+constexpr double most_longest = 3072;
+
 // Of a face, in pixels: so that nothing is divided by zero.
 constexpr double least_width = 1e-12;
 
@@ -118,7 +122,7 @@ VisibleCells::Precision VisibleCells::precision_for(VisibleCell& cell) const
     cell.farthest = farthest;
     const double near_scale = 1 - nearest * inverse_distance_;
     const double far_scale = 1 - farthest * inverse_distance_;
-    if (near_scale > most_foreshortened * far_scale)
+    if (near_scale > most_foreshortened * far_scale || longest > most_longest)
         return {std::numeric_limits<double>::infinity(), 0, longest};
     constexpr double diagonal = 1.4143;
     const double error = error_of(precision_, longest);

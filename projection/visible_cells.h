@@ -64,7 +64,7 @@ public:
     bool may_cover(const std::array<glm::ivec2, 3>& triangle) const;
 
     /// Calls `visible(VisibleCell)` for cells (inner numbering) in their sequence, and `apart(cell)` for those of which
-    /// a point is off the lattice, and those for which single precision is not enough.
+    /// a point is off the lattice, and those that are too large or not seen well enough.
     template <class Visible, class Apart>
     void visit(std::span<const CellId> cells, Visible&& visible, Apart&& apart) const;
 

@@ -5,10 +5,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <limits>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>

@@ -6,7 +6,6 @@
 #include "scene/unit_planes.h"
 
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 

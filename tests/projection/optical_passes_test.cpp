@@ -105,5 +105,23 @@ TEST(OpticalPasses, AreNoneWhereNothingIsSeen)
     EXPECT_EQ(passes.size(), 1U);
 }
 
+// The two ends of such a piece may be the same number when they are given relative to a scalar that is far away.
+TEST(OpticalPasses, PiecesTooNarrowForSinglePrecisionArePassedOver)
+{
+    const OpticalPieces pieces = optical_pieces(TransferFunction({{0, 1, glm::dvec3(1, 0, 0)},
+                                                                  {0.01, 1, glm::dvec3(1, 0, 0)},
+                                                                  {0.01 + 1e-8, 5, glm::dvec3(0, 1, 0)},
+                                                                  {1, 5, glm::dvec3(0, 1, 0)}}),
+                                                0, 1);
+    ASSERT_EQ(pieces.at(0.01F).begin, 0.01F);
+    std::vector<OpticalPass> passes;
+    find_optical_passes(pieces, {0, 0.9F, 0.9F, 0.01, true, true, false}, passes);
+    ASSERT_FALSE(passes.empty());
+    for (const OpticalPass& pass : passes) {
+        EXPECT_NE(pass.window.x, pass.window.y);
+        EXPECT_LT(std::abs(pass.rise.x), 10);
+    }
+}
+
 } // namespace
 } // namespace visorder

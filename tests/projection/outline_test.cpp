@@ -32,18 +32,20 @@ struct Drawn {
     std::string reproduce;
 };
 
-// Many of them slim.
+// Many of them slim, and some so slim that nothing but rounding gives them an area.
 std::vector<Drawn> random_cells(int count)
 {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(-1, 1);
     std::vector<Drawn> cells;
     while (static_cast<int>(cells.size()) < count) {
-        const double squeeze = std::pow(10.0, -4 * std::abs(uniform(random)));
+        const double slimmest = cells.size() % 4 == 0 ? -15 : -4;
+        const double squeeze = std::pow(10.0, slimmest * std::abs(uniform(random)));
+        const double length = cells.size() % 8 == 0 ? 400 : 20;
         const double angle = 3 * uniform(random);
         std::array<glm::dvec2, 4> p{};
         for (glm::dvec2& q : p) {
-            const glm::dvec2 r(20 * uniform(random), 20 * squeeze * uniform(random));
+            const glm::dvec2 r(length * uniform(random), length * squeeze * uniform(random));
             q = {r.x * std::cos(angle) - r.y * std::sin(angle), r.x * std::sin(angle) + r.y * std::cos(angle)};
         }
         const Silhouette s = silhouette_of(p);
@@ -51,6 +53,14 @@ std::vector<Drawn> random_cells(int count)
             continue;
         Drawn drawn{};
         drawn.cell.kind = s.kind;
+        glm::dvec2 low = p[0], high = p[0];
+        for (const glm::dvec2& q : p) {
+            low = glm::min(low, q);
+            high = glm::max(high, q);
+        }
+        const double steps = lattice.steps;
+        drawn.cell.low = glm::ivec2(glm::floor(low * steps));
+        drawn.cell.high = glm::ivec2(glm::ceil(high * steps));
         for (std::size_t i = 0; i < 4; ++i) {
             drawn.cell.at[i] = glm::dvec3(p[s.points[i]], 0);
             drawn.cell.areas[i] = s.areas[i];
