@@ -77,7 +77,7 @@ NamedPoints narrow_peak()
 {
     constexpr glm::dvec3 haze{0.1, 0.3, 0.8};
     constexpr glm::dvec3 peak{1, 0.7, 0.1};
-    return {{0, 0.5, haze}, {0.49, 0.5, haze}, {0.5, 0.8, peak}, {0.51, 0.5, haze}, {1, 0.5, haze}};
+    return {{0, 0.5, haze}, {0.495, 0.5, haze}, {0.5, 0.8, peak}, {0.505, 0.5, haze}, {1, 0.5, haze}};
 }
 
 NamedPoints steps()

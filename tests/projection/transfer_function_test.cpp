@@ -119,8 +119,8 @@ TEST(NamedTransferFunctions, AreWhatTheirNamesSay)
     EXPECT_EQ(jumps(named_transfer_function("cool-warm", 0, 1, 1)), 0);
     EXPECT_EQ(named_transfer_function("constant", 0, 1, 1).points().size(), 1U);
     const TransferFunction peak = named_transfer_function("narrow-peak", 0, 1, 1);
-    EXPECT_GT(peak.at(0.5).extinction, 2 * peak.at(0.51).extinction);
-    for (const double beside : {0.0, 0.49, 0.51, 1.0})
+    EXPECT_GT(peak.at(0.5).extinction, 2 * peak.at(0.505).extinction);
+    for (const double beside : {0.0, 0.495, 0.505, 1.0})
         EXPECT_DOUBLE_EQ(peak.at(beside).extinction, extinction_of(0.5, 1)) << beside;
     const TransferFunction cool_warm = named_transfer_function("cool-warm", 0, 1, 1);
     EXPECT_GT(cool_warm.at(0).colour.b, cool_warm.at(0).colour.r);
