@@ -233,7 +233,6 @@ public:
             renderers_.push_back(std::make_unique<ProjectionRenderer>(context_, scene, function, options));
     }
 
-    std::size_t count() const { return renderers_.size(); }
     const std::string& gl_renderer() const { return context_.renderer(); }
 
     Image draw(std::size_t variant, const Camera& from)

@@ -34,7 +34,7 @@ PendingFaces::Grid PendingFaces::grid(const Extent& extent, std::size_t first_li
             scale.most[axis] = scale.most[axis + 2] = most;
         };
     };
-    // Squares twice as large as a face is on average.
+    // Squares three times as large as a face is on average.
     const auto squares = [&](double size, double of_faces) {
         return size > 0 ? static_cast<std::uint32_t>(std::clamp(0.3 * size * extent.count / of_faces, 1.0,
                                                                 std::min(std::sqrt(4 * extent.count + 1), 65536.0)))

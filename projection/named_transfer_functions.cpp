@@ -75,6 +75,13 @@ NamedPoints rainbow()
 
 NamedPoints narrow_peak()
 {
+    constexpr glm::dvec3 ramp{0.1, 0.3, 0.8};
+    constexpr glm::dvec3 peak{1, 0.7, 0.1};
+    return {{0, 0.01, ramp}, {0.49, 0.055, ramp}, {0.5, 0.98, peak}, {0.51, 0.055, ramp}, {1, 0.1, ramp}};
+}
+
+NamedPoints peak_in_haze()
+{
     constexpr glm::dvec3 haze{0.1, 0.3, 0.8};
     constexpr glm::dvec3 peak{1, 0.7, 0.1};
     return {{0, 0.5, haze}, {0.495, 0.5, haze}, {0.5, 0.8, peak}, {0.505, 0.5, haze}, {1, 0.5, haze}};
@@ -98,8 +105,10 @@ struct Named {
     NamedPoints (*points)();
 };
 
-constexpr std::array all = {Named{"cool-warm", cool_warm},     Named{"viridis", viridis}, Named{"rainbow", rainbow},
-                            Named{"narrow-peak", narrow_peak}, Named{"steps", steps},     Named{"constant", constant}};
+constexpr std::array all = {Named{"cool-warm", cool_warm},       Named{"viridis", viridis},
+                            Named{"rainbow", rainbow},           Named{"narrow-peak", narrow_peak},
+                            Named{"peak-in-haze", peak_in_haze}, Named{"steps", steps},
+                            Named{"constant", constant}};
 
 constexpr auto names = [] {
     std::array<const char*, all.size()> result{};

@@ -51,7 +51,8 @@ std::span<const char* const> transfer_function_names();
 /// - cool-warm: opacity rises from 0 to 0.6, from blue over grey to red (Moreland 2009, Diverging color maps)
 /// - viridis: opacity rises from 0 to 0.6, from violet over green to yellow
 /// - rainbow: opacity 0.3 throughout, from blue over green to red
-/// - narrow-peak: a band of opacity 0.8, 1 % of the range wide, in a haze of 0.5 and of another colour
+/// - narrow-peak: a band of opacity 0.98, 2 % of the range wide, over a ramp from 0.01 to 0.1
+/// - peak-in-haze: a band of opacity 0.8, 1 % of the range wide, in a haze of 0.5 and of another colour
 /// - steps: five bands of their own opacity and colour, jumps between them
 /// - constant: one opacity, 0.3, and one colour
 ///

@@ -148,7 +148,7 @@ TEST(Renderer, IntegratorsComeNearerToTheRayCasterOneByOne)
     // neither sees anything.
     const TransferFunction wide_peak(
         {{0.25, low, {0.2, 0.3, 0.9}}, {0.45, extinction_of(0.9, unit), {1, 0.3, 0.1}}, {0.65, low, {0.9, 0.8, 0.2}}});
-    for (const TransferFunction& function : {wide_peak, function_for(scene, "narrow-peak")})
+    for (const TransferFunction& function : {wide_peak, function_for(scene, "peak-in-haze")})
         for (const Projector projector : {Projector::silhouette, Projector::thick})
             for (const NamedView& view : random_views(scene, 2, 3, glm::ivec2(96))) {
                 const RayCast cast = truth(scene, function, view.view);

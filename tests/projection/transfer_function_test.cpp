@@ -119,9 +119,12 @@ TEST(NamedTransferFunctions, AreWhatTheirNamesSay)
     EXPECT_EQ(jumps(named_transfer_function("cool-warm", 0, 1, 1)), 0);
     EXPECT_EQ(named_transfer_function("constant", 0, 1, 1).points().size(), 1U);
     const TransferFunction peak = named_transfer_function("narrow-peak", 0, 1, 1);
-    EXPECT_GT(peak.at(0.5).extinction, 2 * peak.at(0.505).extinction);
+    EXPECT_GT(peak.at(0.5).extinction, 20 * peak.at(0.485).extinction);
+    EXPECT_GT(peak.at(0.5).extinction, 20 * peak.at(1).extinction);
+    const TransferFunction in_haze = named_transfer_function("peak-in-haze", 0, 1, 1);
+    EXPECT_GT(in_haze.at(0.5).extinction, 2 * in_haze.at(0.505).extinction);
     for (const double beside : {0.0, 0.495, 0.505, 1.0})
-        EXPECT_DOUBLE_EQ(peak.at(beside).extinction, extinction_of(0.5, 1)) << beside;
+        EXPECT_DOUBLE_EQ(in_haze.at(beside).extinction, extinction_of(0.5, 1)) << beside;
     const TransferFunction cool_warm = named_transfer_function("cool-warm", 0, 1, 1);
     EXPECT_GT(cool_warm.at(0).colour.b, cool_warm.at(0).colour.r);
     EXPECT_GT(cool_warm.at(1).colour.r, cool_warm.at(1).colour.b);
