@@ -34,7 +34,7 @@ int run(const Arguments& arguments)
     if (!arguments.map.empty())
         write_order(arguments.map, cell_of);
     fmt::print("{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output, order.back_to_front.size(),
-               arguments.sorter, name(sorter->guarantee()), order.cycles.size());
+               arguments.sorter, describe(sorter->guarantee(), scene), order.cycles.size());
     if (sourced.source_cells != cell_of.size())
         fmt::print("cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
                    sourced.source_cells);
