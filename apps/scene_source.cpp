@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace scenes;
 
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
 {
@@ -56,4 +58,4 @@ SourcedMesh load(const SceneSource& source)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -19,7 +19,9 @@
 #include <memory>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::bench {
+
+using namespace scenes;
 
 namespace {
 
@@ -327,4 +329,4 @@ Comparison compare(const ComparisonOptions& options, const Progress& progress)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

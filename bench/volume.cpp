@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::bench {
+
+using namespace scenes;
 
 namespace {
 
@@ -39,4 +41,4 @@ Mesh volume_named(const std::string& name)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <unistd.h>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// A folder of its own for the files of one test, gone with it.
 class TemporaryFolder {
@@ -38,4 +38,4 @@ inline std::string content_of(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-} // namespace visorder
+} // namespace visorder::tests

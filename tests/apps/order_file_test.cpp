@@ -6,7 +6,9 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace apps;
 namespace {
 
 void write(const std::filesystem::path& file, const std::string& text)
@@ -81,4 +83,4 @@ TEST(OrderFile, SaysWhatIsWrongWithAFile)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// A folder of its own for a test, gone with it.
 class TemporaryFolder {
@@ -31,4 +31,4 @@ private:
     std::filesystem::path path_;
 };
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -11,7 +11,7 @@
 #include <string>
 #include <sys/wait.h>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 struct Outcome {
@@ -274,4 +274,4 @@ TEST(Tool, OrdersARealMeshWithTheMapBackToItsCells)
 #endif
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -10,6 +10,7 @@
 #include <vtkCellType.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -5,6 +5,7 @@
 #include <vtk_netcdf.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

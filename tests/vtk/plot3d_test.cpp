@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -11,6 +11,7 @@
 #include <vtkOutputWindow.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// A .vtu file in text, made of what is set.
 struct VtuText {
@@ -79,4 +79,4 @@ inline VtuText two_tetrahedra()
     return vtu;
 }
 
-} // namespace visorder
+} // namespace visorder::tests
