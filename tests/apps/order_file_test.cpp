@@ -1,7 +1,7 @@
 #include "apps/order_file.h"
 
 #include "scene/error.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
