@@ -4,7 +4,7 @@
 #include "sorting/strongly_connected.h"
 #include "tests/checking/small_scenes.h"
 #if defined(VISORDER_WITH_VTK)
-#include "vtk/read_mesh.h"
+#include "files/read_mesh.h"
 #endif
 
 #include <algorithm>

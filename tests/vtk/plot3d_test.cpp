@@ -1,4 +1,4 @@
-#include "reading_error.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 
 #include <algorithm>

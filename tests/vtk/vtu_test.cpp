@@ -1,6 +1,6 @@
 // What is taken of a file: points, cells, scalars; and what of a file is refused. By .vtu files, which hold everything.
 
-#include "reading_error.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 #include "vtu_text.h"
 

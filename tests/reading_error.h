@@ -1,7 +1,7 @@
 #pragma once
 
+#include "files/read_mesh.h"
 #include "scene/error.h"
-#include "vtk/read_mesh.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
