@@ -17,7 +17,9 @@
 #include <memory>
 #include <string>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace bench;
 
 namespace {
 
@@ -165,4 +167,4 @@ void add_render_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -58,4 +58,4 @@ void add_sort_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

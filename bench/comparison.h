@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// What to compare.
 struct ComparisonOptions {
@@ -85,4 +85,4 @@ struct Comparison {
 /// what is being done. Throws InputError for a file, a scene or a sorter that cannot be had.
 Comparison compare(const ComparisonOptions& options, const std::function<void(const std::string&)>& progress);
 
-} // namespace visorder
+} // namespace visorder::bench

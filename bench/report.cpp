@@ -10,7 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-namespace visorder {
+namespace visorder::bench {
 
 namespace {
 
@@ -239,4 +239,4 @@ std::string json(const Comparison& comparison, const Machine& machine)
     return document.dump(2) + "\n";
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -20,7 +20,9 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 // What holds for every sorter that is exact on all scenes with planar faces; the parameter is its name.
@@ -491,4 +493,4 @@ INSTANTIATE_TEST_SUITE_P(All, ExactSorter, testing::Values("xmpvo-exact", "bsp-x
 });
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

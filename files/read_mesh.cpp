@@ -1,9 +1,9 @@
-#include "vtk/read_mesh.h"
+#include "files/read_mesh.h"
 
+#include "files/mesh_format.h"
+#include "files/obj_file.h"
+#include "files/unused_points.h"
 #include "scene/error.h"
-#include "vtk/data_set_mesh.h"
-#include "vtk/obj_file.h"
-#include "vtk/unused_points.h"
 
 #include <algorithm>
 #include <array>
@@ -16,15 +16,32 @@ namespace visorder {
 
 namespace {
 
-constexpr std::array endings{".vtu", ".vtk", ".ex2", ".e", ".exo", "xyz.bin", ".obj"};
+constexpr std::array own_formats{MeshFormat{".obj", read_obj_file}};
 
-/// Which of the endings a name has, whatever the case of its letters; null for none.
-const char* ending_of(std::string name)
+std::vector<MeshFormat> all_formats()
+{
+    std::vector<MeshFormat> all;
+#if defined(VISORDER_WITH_VTK)
+    all.assign(vtk_formats().begin(), vtk_formats().end());
+#endif
+    all.insert(all.end(), own_formats.begin(), own_formats.end());
+    return all;
+}
+
+const std::vector<MeshFormat>& formats()
+{
+    static const std::vector<MeshFormat> all = all_formats();
+    return all;
+}
+
+/// The format that a name's ending tells, whatever the case of its letters; null for none.
+const MeshFormat* format_of(std::string name)
 {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    const auto ending = std::find_if(endings.begin(), endings.end(), [&](const char* e) { return name.ends_with(e); });
-    return ending == endings.end() ? nullptr : *ending;
+    const auto format = std::find_if(formats().begin(), formats().end(),
+                                     [&](const MeshFormat& candidate) { return name.ends_with(candidate.ending); });
+    return format == formats().end() ? nullptr : &*format;
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what)
@@ -32,35 +49,24 @@ const char* ending_of(std::string name)
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-MeshFile read_by_ending(const std::filesystem::path& file, const std::string& scalar)
+MeshFile read_by_ending(const std::filesystem::path& file, const ReadOptions& options)
 {
-    const char* known = ending_of(file.filename().string());
-    if (!known)
-        fail(file, fmt::format("not a name of a mesh file; they end in {}", fmt::join(endings, ", ")));
+    const MeshFormat* format = format_of(file.filename().string());
+    if (!format)
+        fail(file, fmt::format("not a name of a mesh file; they end in {}", fmt::join(mesh_file_endings(), ", ")));
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
     if (!std::ifstream(file))
         fail(file, "cannot be opened");
-
-    const std::string_view ending = known;
-    if (ending == ".obj") {
-        if (!scalar.empty())
-            fail(file, fmt::format("no scalar \"{}\"; it has: none", scalar));
-        return read_obj_file(file);
-    }
-    return mesh_of(ending == ".vtu"      ? read_xml_file(file)
-                   : ending == ".vtk"    ? read_legacy_file(file)
-                   : ending == "xyz.bin" ? read_plot3d_file(file)
-                                         : read_exodus_file(file),
-                   scalar);
+    return format->read(file, options);
 }
 
 } // namespace
 
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options)
 {
-    MeshFile result = read_by_ending(file, options.scalar);
+    MeshFile result = read_by_ending(file, options);
     const auto note = [&](std::size_t count, const char* what) {
         if (count > 0)
             result.notes.push_back(fmt::format("{} {}", count, what));
@@ -79,8 +85,11 @@ MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options
     return result;
 }
 
-std::span<const char* const> mesh_file_endings()
+std::vector<std::string> mesh_file_endings()
 {
+    std::vector<std::string> endings;
+    for (const MeshFormat& format : formats())
+        endings.emplace_back(format.ending);
     return endings;
 }
 
