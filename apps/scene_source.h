@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/weld_option.h"
 #include "scene/mesh.h"
 
 #include <CLI/CLI.hpp>
@@ -15,7 +16,7 @@ struct SceneSource {
     std::string file;
     std::string generated;
     std::string scalar;
-    bool weld = false;
+    WeldOption weld;
     bool whole = false;
 };
 

@@ -91,7 +91,9 @@ MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options
     };
     note(drop_unused_points(result.mesh), "points that no cell uses left out");
     if (options.weld)
-        note(weld(result.mesh), "points joined with others of the same coordinates");
+        note(weld(result.mesh, options.weld_tolerance), options.weld_tolerance > 0
+                                                            ? "points joined with others near them"
+                                                            : "points joined with others of the same coordinates");
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
     note(static_cast<std::size_t>(not_finite), "scalars are not finite");
