@@ -1,5 +1,6 @@
 #include "files/read_mesh.h"
 
+#include "files/cell_numbers.h"
 #include "files/mesh_format.h"
 #include "files/obj_file.h"
 #include "files/unused_points.h"
@@ -79,6 +80,8 @@ MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options
     note(static_cast<std::size_t>(not_finite), "scalars are not finite");
     try {
         validate(result.mesh);
+    } catch (const CellError& error) {
+        fail(file, cell_numbers(result).message(error));
     } catch (const InputError& error) {
         fail(file, error.what());
     }
