@@ -113,7 +113,7 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     fmt::print("{}: {} x {}, {} cells as {} triangles in {:.3f} s by {} and {} on {}; sorted by {} ({})\n",
                arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
                taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
-               context.renderer(), arguments.sorter, name(sorter->guarantee()));
+               context.renderer(), arguments.sorter, describe(sorter->guarantee(), scene));
     return exit_success;
 }
 

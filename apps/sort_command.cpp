@@ -32,7 +32,7 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     if (!arguments.map.empty())
         write_order(arguments.map, sourced.cells.file_cells());
     fmt::print("{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output, order.back_to_front.size(),
-               arguments.sorter, name(sorter->guarantee()), order.cycles.size());
+               arguments.sorter, describe(sorter->guarantee(), scene), order.cycles.size());
     if (sourced.source_cells != scene.cell_count())
         fmt::print("cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
                    sourced.source_cells);

@@ -188,7 +188,7 @@ class ViewFrames {
 public:
     void keep(Image image, const Order& order, RunResult& run)
     {
-        if (exact_ == none && run.guarantee == Guarantee::exact) {
+        if (exact_ == none && run.guarantee != Guarantee::approximate) {
             exact_ = drawn_.size();
             exact_order_ = order;
         }
@@ -201,7 +201,7 @@ public:
         if (exact_ != none)
             return;
         const auto sorter = make_sorter("auto", scene);
-        if (sorter->guarantee() != Guarantee::exact)
+        if (sorter->guarantee() == Guarantee::approximate)
             return;
         sorter->sort(view, exact_order_);
         exact_ = drawn_.size();

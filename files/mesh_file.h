@@ -15,6 +15,9 @@ struct ReadOptions {
     /// not hold ids, of points, else of cells.
     std::string scalar = "";
     bool weld = false; ///< join points with exactly equal coordinates (see `weld`)
+    /// Have files whose reader is not proof against damage, VTK's, read by a process of its own (see
+    /// reader_process.h). Without, a damaged file can crash the program or take all its time and memory.
+    bool isolated = true;
 };
 
 /// A part of a file that has a name of its own: an element block, a grid, a piece.

@@ -12,6 +12,7 @@ struct MeshFormat {
     const char* ending; ///< of the file's name, in small letters
     /// Takes the scalar of the options, and leaves the rest of them to `read_mesh`.
     MeshFile (*read)(const std::filesystem::path& path, const ReadOptions& options);
+    bool isolated = false; ///< whether a process of its own reads it, unless the options say otherwise
 };
 
 /// The formats that VTK reads: defined in vtk/, and so only in a build with VTK.

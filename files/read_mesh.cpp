@@ -3,6 +3,7 @@
 #include "files/cell_numbers.h"
 #include "files/mesh_format.h"
 #include "files/obj_file.h"
+#include "files/reader_process.h"
 #include "files/unused_points.h"
 #include "scene/error.h"
 
@@ -50,7 +51,8 @@ const MeshFormat* format_of(std::string name)
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-MeshFile read_by_ending(const std::filesystem::path& file, const ReadOptions& options)
+/// The format of a file that is there.
+const MeshFormat& checked_format(const std::filesystem::path& file)
 {
     const MeshFormat* format = format_of(file.filename().string());
     if (!format)
@@ -60,14 +62,36 @@ MeshFile read_by_ending(const std::filesystem::path& file, const ReadOptions& op
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
     if (!std::ifstream(file))
         fail(file, "cannot be opened");
-    return format->read(file, options);
+    return *format;
+}
+
+void check(const std::filesystem::path& file, const MeshFile& read)
+{
+    const std::size_t numbers = read.file_cells.size();
+    if ((numbers != 0 && numbers != read.mesh.cell_count()) ||
+        !std::is_sorted(read.file_cells.begin(), read.file_cells.end()))
+        fail(file, fmt::format("{} numbers of cells do not fit {} cells", numbers, read.mesh.cell_count()));
+    try {
+        validate(read.mesh);
+    } catch (const CellError& error) {
+        fail(file, cell_numbers(read).message(error));
+    } catch (const InputError& error) {
+        fail(file, error.what());
+    }
 }
 
 } // namespace
 
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options)
 {
-    MeshFile result = read_by_ending(file, options);
+    const MeshFormat& format = checked_format(file);
+    if (format.isolated && options.isolated) {
+        MeshFile result = read_in_own_process(file, options);
+        check(file, result); // it comes from a process that damage may have upset
+        return result;
+    }
+
+    MeshFile result = format.read(file, options);
     const auto note = [&](std::size_t count, const char* what) {
         if (count > 0)
             result.notes.push_back(fmt::format("{} {}", count, what));
@@ -78,13 +102,7 @@ MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
     note(static_cast<std::size_t>(not_finite), "scalars are not finite");
-    try {
-        validate(result.mesh);
-    } catch (const CellError& error) {
-        fail(file, cell_numbers(result).message(error));
-    } catch (const InputError& error) {
-        fail(file, error.what());
-    }
+    check(file, result);
     return result;
 }
 

@@ -14,9 +14,9 @@ MeshFile read_with(const std::filesystem::path& path, const ReadOptions& options
 }
 
 constexpr std::array formats{
-    MeshFormat{".vtu", read_with<read_xml_file>},    MeshFormat{".vtk", read_with<read_legacy_file>},
-    MeshFormat{".ex2", read_with<read_exodus_file>}, MeshFormat{".e", read_with<read_exodus_file>},
-    MeshFormat{".exo", read_with<read_exodus_file>}, MeshFormat{"xyz.bin", read_with<read_plot3d_file>},
+    MeshFormat{".vtu", read_with<read_xml_file>, true},    MeshFormat{".vtk", read_with<read_legacy_file>, true},
+    MeshFormat{".ex2", read_with<read_exodus_file>, true}, MeshFormat{".e", read_with<read_exodus_file>, true},
+    MeshFormat{".exo", read_with<read_exodus_file>, true}, MeshFormat{"xyz.bin", read_with<read_plot3d_file>},
 };
 
 } // namespace
