@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <unistd.h>
 
@@ -32,6 +33,14 @@ struct Arguments {
 const std::vector<std::string> default_scenes{"delaunay:200000", "carved:200000", "grid:150000", "fin:150000",
                                               "pinwheel"};
 
+std::vector<std::string> refused_names(const Comparison& comparison)
+{
+    std::vector<std::string> names;
+    for (const Refusal& refusal : comparison.refused)
+        names.push_back(refusal.source);
+    return names;
+}
+
 int run(Arguments& arguments)
 {
     ComparisonOptions& options = arguments.options;
@@ -53,11 +62,17 @@ int run(Arguments& arguments)
         machine.gl_renderer = comparison.gl_renderer;
     if (!arguments.json_file.empty())
         write_file(arguments.json_file, json(comparison, machine));
+    for (const Refusal& refusal : comparison.refused)
+        fmt::print(stderr, "visorder: {}\n", refusal.reason);
+    if (comparison.scenes.empty())
+        return exit_bad_input;
     const int views = comparison.runs.empty() ? 0 : comparison.runs.back().view + 1;
     fmt::print("{}, {} thread{}; {} views a scene: times are medians over them, counts are sums\n\n{}", machine.cpu,
                machine.threads, machine.threads == 1 ? "" : "s", views,
                table(comparison, isatty(STDOUT_FILENO) != 0, arguments.statistics));
-    return comparison.failed() ? exit_wrong : exit_success;
+    if (!comparison.refused.empty())
+        fmt::print("\nnot compared, for what standard error says: {}\n", fmt::join(refused_names(comparison), ", "));
+    return !comparison.refused.empty() ? exit_bad_input : comparison.failed() ? exit_wrong : exit_success;
 }
 
 } // namespace

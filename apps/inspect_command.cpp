@@ -17,9 +17,8 @@ const char* yes_or_no(bool yes)
     return yes ? "yes" : "no";
 }
 
-int run(const SceneSource& source)
+int run(SourcedMesh& sourced)
 {
-    SourcedMesh sourced = load(source);
     const bool has_scalars = !sourced.mesh.scalars.empty();
     const auto [low, high] = std::minmax_element(sourced.mesh.scalars.begin(), sourced.mesh.scalars.end());
     const float least = has_scalars ? *low : 0, greatest = has_scalars ? *high : 0;
@@ -72,6 +71,12 @@ int run(const SceneSource& source)
         fmt::print("  {:<15} {:.3f} s, {:.1f} MiB\n", name(record.structure), record.seconds,
                    static_cast<double>(record.bytes) / (1 << 20));
     return exit_success;
+}
+
+int run(const SceneSource& source)
+{
+    SourcedMesh sourced = load(source);
+    return with_names_of(sourced, [&] { return run(sourced); });
 }
 
 } // namespace

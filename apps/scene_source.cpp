@@ -6,7 +6,6 @@
 #include "scene/subdivision.h"
 
 #include <fmt/format.h>
-#include <numeric>
 
 namespace visorder::apps {
 
@@ -30,26 +29,35 @@ SourcedMesh load(const SceneSource& source)
     if (!source.file.empty() && !source.generated.empty())
         throw InputError("both a mesh and --scene given; one of them can be taken");
     SourcedMesh result;
+    MeshFile file;
     if (!source.generated.empty()) {
         result.name = source.generated;
-        result.mesh = generate(source.generated);
+        file.mesh = generate(source.generated);
     } else {
         result.name = source.file;
-        MeshFile file = read_mesh(source.file, {source.scalar, source.weld.given, source.weld.tolerance});
-        result.mesh = std::move(file.mesh);
-        result.scalar = std::move(file.scalar);
-        result.notes = std::move(file.notes);
+        file = read_mesh(source.file, {source.scalar, source.weld.given, source.weld.tolerance});
     }
-    result.source_cells = result.mesh.cell_count();
+    result.source_cells = file.mesh.cell_count();
     if (source.whole) {
-        result.cell_of.resize(result.source_cells);
-        std::iota(result.cell_of.begin(), result.cell_of.end(), CellId{0});
+        result.cells = cell_numbers(file);
+        result.mesh = std::move(file.mesh);
     } else {
-        Subdivision subdivision = subdivide(result.mesh);
+        Subdivision subdivision = subdivide(file.mesh);
+        result.cells = cell_numbers(file, subdivision.cell_of);
         result.mesh = std::move(subdivision.mesh);
-        result.cell_of = std::move(subdivision.cell_of);
     }
+    result.scalar = std::move(file.scalar);
+    result.notes = std::move(file.notes);
     return result;
+}
+
+int with_names_of(const SourcedMesh& sourced, const std::function<int()>& body)
+{
+    try {
+        return body();
+    } catch (const CellError& error) {
+        throw InputError(fmt::format("{}: {}", sourced.name, sourced.cells.message(error)));
+    }
 }
 
 } // namespace visorder::apps

@@ -237,6 +237,11 @@ std::string json(const Comparison& comparison, const Machine& machine)
         }
         document["runs"].push_back(std::move(entry));
     }
+    if (!comparison.refused.empty()) {
+        document["refused"] = Json::array();
+        for (const Refusal& refusal : comparison.refused)
+            document["refused"].push_back({{"source", refusal.source}, {"reason", refusal.reason}});
+    }
     return document.dump(2) + "\n";
 }
 

@@ -62,8 +62,7 @@ void require_planar_faces(const Scene& scene)
             }
     });
     if (lowest != none)
-        throw InputError(
-            fmt::format("cell {}: a face is not planar; subdivide the mesh into tetrahedra", lowest.load()));
+        throw CellError(lowest.load(), "a face is not planar; subdivide the mesh into tetrahedra");
 }
 
 // The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such

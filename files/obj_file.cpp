@@ -121,6 +121,8 @@ private:
             ++split_;
         for (const auto& triangle : triangles)
             mesh().add(CellShape::triangle, triangle);
+        result_.file_cells.resize(mesh().cell_count(), polygons_ + lower_);
+        ++polygons_;
     }
 
     /// The point of v, v/vt, v//vn or v/vt/vn: counted from 1, or back from the last point so far if negative.
@@ -137,6 +139,7 @@ private:
     MeshFile result_;
     std::size_t line_ = 0;
     std::vector<PointId> corners_;
+    std::size_t polygons_ = 0;
     std::size_t split_ = 0;
     std::size_t lower_ = 0;
 };

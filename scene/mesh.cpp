@@ -29,23 +29,23 @@ std::string fault_of_cell(const Mesh& mesh, std::size_t i)
 {
     const CellShape shape = mesh.shapes[i];
     if (shape > CellShape::hexahedron)
-        return fmt::format("cell {}: unknown shape {}", i, static_cast<int>(shape));
+        return fmt::format("unknown shape {}", static_cast<int>(shape));
     if ((shape == CellShape::triangle) != (mesh.shapes.front() == CellShape::triangle))
-        return fmt::format("cell {}: a {} in a mesh that began with a {}: triangles and solids do not mix", i,
-                           name(shape), name(mesh.shapes.front()));
+        return fmt::format("a {} in a mesh that began with a {}: triangles and solids do not mix", name(shape),
+                           name(mesh.shapes.front()));
 
     const std::uint32_t begin = mesh.offsets[i];
     const std::uint32_t end = mesh.offsets[i + 1];
     if (end < begin)
-        return fmt::format("cell {}: offsets fall from {} to {}", i, begin, end);
+        return fmt::format("offsets fall from {} to {}", begin, end);
     if (end - begin != static_cast<std::uint32_t>(vertex_count(shape)))
-        return fmt::format("cell {}: a {} has {} vertices, not {}", i, name(shape), vertex_count(shape), end - begin);
+        return fmt::format("a {} has {} vertices, not {}", name(shape), vertex_count(shape), end - begin);
     if (end > mesh.vertices.size())
-        return fmt::format("cell {}: offset {} is beyond the {} vertices", i, end, mesh.vertices.size());
+        return fmt::format("offset {} is beyond the {} vertices", end, mesh.vertices.size());
 
     for (const PointId point : mesh.cell(static_cast<CellId>(i)))
         if (point >= mesh.points.size())
-            return fmt::format("cell {}: point {} is out of range, there are {}", i, point, mesh.points.size());
+            return fmt::format("point {} is out of range, there are {}", point, mesh.points.size());
     return {};
 }
 
@@ -58,8 +58,8 @@ std::string fault_of_point(const Mesh& mesh, std::size_t i)
 }
 
 /// Throws the fault of the lowest of `count` items that has one, however the work is spread over threads.
-template <class FaultOf>
-void throw_first_fault(std::size_t count, const FaultOf& fault_of)
+template <class FaultOf, class Throw>
+void throw_first_fault(std::size_t count, const FaultOf& fault_of, const Throw& throw_fault)
 {
     const std::size_t first = oneapi::tbb::parallel_reduce(
         Range(0, count, 4096), count,
@@ -71,7 +71,7 @@ void throw_first_fault(std::size_t count, const FaultOf& fault_of)
         },
         [](std::size_t a, std::size_t b) { return std::min(a, b); });
     if (first < count)
-        throw InputError(fault_of(first));
+        throw_fault(first, fault_of(first));
 }
 
 void check_point_arrays(const Mesh& mesh)
@@ -207,11 +207,15 @@ void validate(const Mesh& mesh)
     if (mesh.offsets.front() != 0)
         throw InputError(fmt::format("cell 0: the first offset is {}, not 0", mesh.offsets.front()));
     check_point_arrays(mesh);
-    throw_first_fault(cells, [&](std::size_t i) { return fault_of_cell(mesh, i); });
+    throw_first_fault(
+        cells, [&](std::size_t i) { return fault_of_cell(mesh, i); },
+        [](std::size_t i, const std::string& fault) { throw CellError(i, fault); });
     if (mesh.offsets.back() != mesh.vertices.size())
-        throw InputError(fmt::format("cell {}: the last offset is {}, but there are {} vertices", cells - 1,
-                                     mesh.offsets.back(), mesh.vertices.size()));
-    throw_first_fault(mesh.points.size(), [&](std::size_t i) { return fault_of_point(mesh, i); });
+        throw CellError(cells - 1, fmt::format("the last offset is {}, but there are {} vertices", mesh.offsets.back(),
+                                               mesh.vertices.size()));
+    throw_first_fault(
+        mesh.points.size(), [&](std::size_t i) { return fault_of_point(mesh, i); },
+        [](std::size_t, const std::string& fault) { throw InputError(fault); });
 }
 
 std::size_t weld(Mesh& mesh)

@@ -132,6 +132,7 @@ private:
             }
             const std::size_t before = mesh().cell_count();
             read_cell(part, cell, solids);
+            result_.file_cells.resize(mesh().cell_count(), cell_);
             if (values)
                 cell_values_.resize(mesh().cell_count(), mesh().cell_count() > before ? magnitude(*values, cell) : 0);
         }
