@@ -15,6 +15,9 @@ struct ReadOptions {
     /// not hold ids, of points, else of cells.
     std::string scalar = "";
     bool weld = false; ///< join points with exactly equal coordinates (see `weld`)
+    /// Of a file with time steps the one to take: "first", "last", "index:N" counted from 0, or its time. Empty: the
+    /// last.
+    std::string time = "";
 };
 
 /// A part of a file that has a name of its own: an element block, a grid, a piece.

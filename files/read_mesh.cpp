@@ -1,8 +1,15 @@
 #include "files/read_mesh.h"
 
+#include "files/file_content.h"
+#include "files/gmsh_file.h"
+#include "files/medit_file.h"
 #include "files/mesh_format.h"
 #include "files/obj_file.h"
-#include "files/unused_points.h"
+#include "files/off_file.h"
+#include "files/plot3d_file.h"
+#include "files/ply_file.h"
+#include "files/stl_file.h"
+#include "files/time_step.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -16,7 +23,33 @@ namespace visorder {
 
 namespace {
 
-constexpr std::array own_formats{MeshFormat{".obj", read_obj_file}};
+template <FileGrid (*Read)(const std::filesystem::path&, std::string_view)>
+FileGrid read_without_time(const std::filesystem::path& path, std::string_view content, const ReadOptions& options)
+{
+    FileGrid grid = Read(path, content);
+    choose_time_step(path, {}, options.time, grid.notes);
+    return grid;
+}
+
+FileGrid read_gmsh(const std::filesystem::path& path, std::string_view content, const ReadOptions& options)
+{
+    return read_gmsh_file(path, content, options.time);
+}
+
+constexpr std::array own_formats{
+    MeshFormat{"xyz.bin", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".xyz", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".x", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".p3d", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".mesh", read_without_time<read_medit_file>, nullptr},
+    MeshFormat{".meshb", read_without_time<read_medit_binary_file>, nullptr},
+    MeshFormat{".msh", read_gmsh, nullptr},
+    MeshFormat{".obj", read_without_time<read_obj_file>, nullptr},
+    MeshFormat{".off", read_without_time<read_off_file>, nullptr},
+    MeshFormat{".ply", read_without_time<read_ply_file>, nullptr},
+    MeshFormat{".stl", read_without_time<read_stl_file>, nullptr},
+};
+constexpr std::string_view compressed_ending = ".gz";
 
 std::vector<MeshFormat> all_formats()
 {
@@ -34,11 +67,16 @@ const std::vector<MeshFormat>& formats()
     return all;
 }
 
-/// The format that a name's ending tells, whatever the case of its letters; null for none.
-const MeshFormat* format_of(std::string name)
+std::string in_small_letters(std::string name)
 {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return name;
+}
+
+/// The format that a name's ending tells; null for none.
+const MeshFormat* format_of(const std::string& name)
+{
     const auto format = std::find_if(formats().begin(), formats().end(),
                                      [&](const MeshFormat& candidate) { return name.ends_with(candidate.ending); });
     return format == formats().end() ? nullptr : &*format;
@@ -49,9 +87,13 @@ const MeshFormat* format_of(std::string name)
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-MeshFile read_by_ending(const std::filesystem::path& file, const ReadOptions& options)
+FileGrid read_by_ending(const std::filesystem::path& file, const ReadOptions& options)
 {
-    const MeshFormat* format = format_of(file.filename().string());
+    std::string name = in_small_letters(file.filename().string());
+    const bool is_compressed = name.ends_with(compressed_ending);
+    if (is_compressed)
+        name.resize(name.size() - compressed_ending.size());
+    const MeshFormat* format = format_of(name);
     if (!format)
         fail(file, fmt::format("not a name of a mesh file; they end in {}", fmt::join(mesh_file_endings(), ", ")));
     std::error_code error;
@@ -59,24 +101,24 @@ MeshFile read_by_ending(const std::filesystem::path& file, const ReadOptions& op
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
     if (!std::ifstream(file))
         fail(file, "cannot be opened");
-    return format->read(file, options);
+    if (format->read_content) {
+        std::string content = content_of_file(file);
+        return format->read_content(file, is_compressed ? decompressed(file, content) : content, options);
+    }
+    if (is_compressed)
+        fail(file, fmt::format("files that end in {} are read only if they are not compressed", format->ending));
+    return format->read_file(file, options);
 }
 
 } // namespace
 
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options)
 {
-    MeshFile result = read_by_ending(file, options);
-    const auto note = [&](std::size_t count, const char* what) {
-        if (count > 0)
-            result.notes.push_back(fmt::format("{} {}", count, what));
-    };
-    note(drop_unused_points(result.mesh), "points that no cell uses left out");
-    if (options.weld)
-        note(weld(result.mesh), "points joined with others of the same coordinates");
+    MeshFile result = mesh_of(read_by_ending(file, options), options);
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
-    note(static_cast<std::size_t>(not_finite), "scalars are not finite");
+    if (not_finite > 0)
+        result.notes.push_back(fmt::format("{} scalars are not finite", not_finite));
     try {
         validate(result.mesh);
     } catch (const InputError& error) {
