@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -66,4 +66,4 @@ void add_check_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace scenes;
 
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
 {
@@ -50,4 +52,4 @@ SourcedMesh load(const SceneSource& source)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::apps

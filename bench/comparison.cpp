@@ -17,7 +17,9 @@
 #include <memory>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::bench {
+
+using namespace scenes;
 
 namespace {
 
@@ -153,7 +155,7 @@ class ViewFrames {
 public:
     void keep(Image image, const Order& order, RunResult& run)
     {
-        if (exact_ == none && run.guarantee == Guarantee::exact) {
+        if (exact_ == none && run.guarantee != Guarantee::approximate) {
             exact_ = drawn_.size();
             exact_order_ = order;
         }
@@ -166,7 +168,7 @@ public:
         if (exact_ != none)
             return;
         const auto sorter = make_sorter("auto", scene);
-        if (sorter->guarantee() != Guarantee::exact)
+        if (sorter->guarantee() == Guarantee::approximate)
             return;
         sorter->sort(view, exact_order_);
         exact_ = drawn_.size();
@@ -321,4 +323,4 @@ Comparison compare(const ComparisonOptions& options, const Progress& progress)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::bench {
+
+using namespace scenes;
 
 namespace {
 
@@ -33,4 +35,4 @@ Mesh volume_named(const std::string& name)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -18,6 +18,9 @@ struct ReadOptions {
     /// Of a file with time steps the one to take: "first", "last", "index:N" counted from 0, or its time. Empty: the
     /// last.
     std::string time = "";
+    /// Have files whose reader is not proof against damage, VTK's, read by a process of its own (see
+    /// reader_process.h). Without, a damaged file can crash the program or take all its time and memory.
+    bool isolated = true;
 };
 
 /// A part of a file that has a name of its own: an element block, a grid, a piece.

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 #include <string_view>
 
 namespace visorder {
@@ -20,6 +21,16 @@ constexpr std::string_view blanks = " \t\r\v\f";
 constexpr std::array ignored{"vt",    "vn",       "vp",       "o",          "g",        "s",
                              "mg",    "usemtl",   "mtllib",   "maplib",     "usemap",   "lod",
                              "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+
+// Curves and surfaces that are no polygons, and what describes them.
+constexpr std::array free_form{"curv", "curv2", "surf"};
+constexpr std::array free_form_details{"cstype", "deg", "bmat", "step", "parm", "trim", "hole",
+                                       "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
+
+bool is_one_of(std::span<const char* const> words, std::string_view word)
+{
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 class ObjParser {
 public:
@@ -50,6 +61,8 @@ public:
         if (std::all_of(grid_.cells.begin(), grid_.cells.end(),
                         [](const ListedCell& cell) { return cell.shape == ListedShape::lower; }))
             throw InputError(fmt::format("{}: there are no polygons in it", grid_.path.string()));
+        if (free_form_ > 0)
+            grid_.notes.push_back(fmt::format("{} free-form curves and surfaces left out", free_form_));
         return std::move(grid_);
     }
 
@@ -68,7 +81,9 @@ private:
             parse_polygon(line);
         else if (keyword == "p" || keyword == "l")
             grid_.add({ListedShape::lower}, {});
-        else if (!keyword.empty() && std::find(ignored.begin(), ignored.end(), keyword) == ignored.end())
+        else if (is_one_of(free_form, keyword))
+            ++free_form_;
+        else if (!keyword.empty() && !is_one_of(ignored, keyword) && !is_one_of(free_form_details, keyword))
             fail(fmt::format("\"{}\" is nothing that a polygon model has", printable(keyword)));
     }
 
@@ -130,6 +145,7 @@ private:
     FileGrid grid_;
     std::size_t line_ = 0;
     std::vector<std::int64_t> corners_;
+    std::size_t free_form_ = 0;
 };
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "files/off_file.h"
 #include "files/plot3d_file.h"
 #include "files/ply_file.h"
+#include "files/reader_process.h"
 #include "files/stl_file.h"
 #include "files/time_step.h"
 #include "scene/error.h"
@@ -87,7 +88,14 @@ const MeshFormat* format_of(const std::string& name)
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-FileGrid read_by_ending(const std::filesystem::path& file, const ReadOptions& options)
+/// A format, and whether the file is compressed.
+struct NamedFormat {
+    const MeshFormat& format;
+    bool is_compressed;
+};
+
+/// The format of a file that is there.
+NamedFormat checked_format(const std::filesystem::path& file)
 {
     std::string name = in_small_letters(file.filename().string());
     const bool is_compressed = name.ends_with(compressed_ending);
@@ -101,29 +109,45 @@ FileGrid read_by_ending(const std::filesystem::path& file, const ReadOptions& op
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
     if (!std::ifstream(file))
         fail(file, "cannot be opened");
-    if (format->read_content) {
-        std::string content = content_of_file(file);
-        return format->read_content(file, is_compressed ? decompressed(file, content) : content, options);
-    }
-    if (is_compressed)
+    if (is_compressed && !format->read_content)
         fail(file, fmt::format("files that end in {} are read only if they are not compressed", format->ending));
-    return format->read_file(file, options);
+    return {*format, is_compressed};
+}
+
+FileGrid read_grid(const std::filesystem::path& file, const NamedFormat& named, const ReadOptions& options)
+{
+    if (!named.format.read_content)
+        return named.format.read_file(file, options);
+    const std::string content = content_of_file(file);
+    return named.format.read_content(file, named.is_compressed ? decompressed(file, content) : content, options);
+}
+
+void check(const std::filesystem::path& file, const MeshFile& read)
+{
+    try {
+        validate(read.mesh);
+    } catch (const InputError& error) {
+        fail(file, error.what());
+    }
 }
 
 } // namespace
 
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options)
 {
-    MeshFile result = mesh_of(read_by_ending(file, options), options);
+    const NamedFormat named = checked_format(file);
+    if (named.format.isolated && options.isolated) {
+        MeshFile result = read_in_own_process(file, options);
+        check(file, result); // it comes from a process that damage may have upset
+        return result;
+    }
+
+    MeshFile result = mesh_of(read_grid(file, named, options), options);
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
     if (not_finite > 0)
         result.notes.push_back(fmt::format("{} scalars are not finite", not_finite));
-    try {
-        validate(result.mesh);
-    } catch (const InputError& error) {
-        fail(file, error.what());
-    }
+    check(file, result);
     return result;
 }
 

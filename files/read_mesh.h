@@ -20,8 +20,10 @@ namespace visorder {
 /// these. The mesh is valid (see `validate`).
 ///
 /// Throws InputError, naming the file, for one that is missing, damaged or of an unknown ending, that has no cells or a
-/// solid that visorder has no shape for, or has no array named `options.scalar`. Thread-safe; VTK files are read one at
-/// a time, and meanwhile VTK's messages, those of other threads too, are collected rather than shown.
+/// solid that visorder has no shape for, or has no array named `options.scalar`; for one whose reader crashes, or takes
+/// more time or memory than `limits_for` allows; and where the program for that cannot be found or started (see
+/// reader_process.h). Thread-safe. Without `options.isolated`, VTK reads one file at a time, and meanwhile its
+/// messages, those of other threads too, are collected rather than shown.
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// The endings of file names that `read_mesh` takes.

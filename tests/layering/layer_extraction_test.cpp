@@ -12,7 +12,11 @@
 #include <map>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
+
+using namespace scenes;
 namespace {
 
 // Holds against the truth, and the variants and platforms against each other.
@@ -180,4 +184,4 @@ TEST(LayerExtraction, ReadsNoMoreThanItNeeds)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
