@@ -1,4 +1,5 @@
 #include "scene/error.h"
+#include "vtk/legacy_check.h"
 #include "vtk/message_capture.h"
 #include "vtk/vtk_file.h"
 
@@ -26,6 +27,7 @@ VtkFile read_legacy_file(const std::filesystem::path& path)
     if (!has_signature(path))
         throw InputError(fmt::format("{}: cannot be read: not a legacy VTK file", path.string()));
 
+    check_legacy_file(path);
     const vtkNew<vtkDataSetReader> reader;
     reader->SetFileName(path.c_str());
     reader->ReadAllScalarsOn();
