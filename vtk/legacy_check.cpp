@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstring>
+#include <cstdio>
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
@@ -61,9 +61,6 @@ std::optional<ValueType> value_type(std::string_view word)
     return found == known.end() ? std::nullopt : std::optional(found->type);
 }
 
-/// What VTK refuses by itself; nothing after it is read.
-struct RefusedByVtk {};
-
 std::string in_capitals(std::string_view keyword)
 {
     std::string text = printable(keyword);
@@ -88,19 +85,23 @@ struct CellList {
     std::size_t size() const { return begins.size() - 1; }
 };
 
+/// Of "5.1", 5. VTK takes a version for 0 that it cannot read to its end.
+int major_version(std::string_view text)
+{
+    int major = 0, minor = 0;
+    const std::string with_end(text);
+    return std::sscanf(with_end.c_str(), "%d.%d", &major, &minor) == 2 ? major : 0;
+}
+
 class LegacyCheck {
 public:
     explicit LegacyCheck(std::string_view content) : text_(content) {}
 
     void run()
     {
-        try {
-            check_header();
-            for (std::string keyword = text_.word(); !keyword.empty(); keyword = text_.word())
-                check_section(keyword);
-        } catch (const RefusedByVtk&) {
-            // VTK takes what comes before.
-        }
+        check_header();
+        for (std::string keyword = text_.word(); !keyword.empty(); keyword = text_.word())
+            check_section(keyword);
         check_together();
     }
 
@@ -110,20 +111,20 @@ private:
         std::string_view first = text_.line();
         constexpr std::string_view signature = "# vtk DataFile Version";
         if (!first.starts_with(signature))
-            throw RefusedByVtk();
-        first.remove_prefix(signature.size());
-        first.remove_prefix(std::min(first.find_first_not_of(" \t\v\f\r"), first.size()));
-        int major = 0;
-        std::from_chars(first.data(), first.data() + first.size(), major);
-        offsets_ = major >= 5;
+            throw InputError("not a legacy VTK file");
+        offsets_ = major_version(first.substr(signature.size())) >= 5;
         text_.line(); // the title
         const std::string kind = text_.word("ASCII or BINARY");
         binary_ = kind.starts_with("binary");
         if (!binary_ && !kind.starts_with("ascii"))
-            throw RefusedByVtk();
-        if (!text_.word("DATASET").starts_with("dataset"))
-            throw RefusedByVtk();
+            throw InputError(fmt::format("{} is neither ASCII nor BINARY", in_capitals(kind)));
+        if (const std::string word = text_.word("DATASET"); !word.starts_with("dataset"))
+            throw InputError(fmt::format("there is {} in the place of DATASET", in_capitals(word)));
         data_set_ = text_.word("the kind of data set");
+        constexpr std::array kinds{"unstructured_grid", "polydata", "structured_points", "structured_grid",
+                                   "rectilinear_grid"};
+        if (std::none_of(kinds.begin(), kinds.end(), [&](const char* k) { return data_set_.starts_with(k); }))
+            throw InputError(fmt::format("{} is not a kind of data set that visorder reads", in_capitals(data_set_)));
     }
 
     void check_section(const std::string& keyword)
@@ -162,7 +163,7 @@ private:
         } else if (is("dimensions")) {
             read_dimensions();
         } else if (is("extent")) {
-            throw InputError("there is an EXTENT, which visorder does not read");
+            read_extent();
         } else if (is("spacing") || is("aspect_ratio") || is("origin")) {
             text_.skip_numbers(3, in_capitals(keyword));
         } else if (is("x_coordinates") || is("y_coordinates") || is("z_coordinates")) {
@@ -170,7 +171,7 @@ private:
         } else if (is("blanking")) {
             check_array(text_.count("the number of blanked points"), 1, "BLANKING");
         } else {
-            throw RefusedByVtk();
+            throw InputError(fmt::format("{} is not a section that it can have", in_capitals(keyword)));
         }
     }
 
@@ -204,7 +205,7 @@ private:
             text_.word("the name of ids");
             check_array(*tuples_, 1, in_capitals(keyword));
         } else {
-            throw RefusedByVtk();
+            throw InputError(fmt::format("{} is not a kind of point or cell data", in_capitals(keyword)));
         }
     }
 
@@ -222,7 +223,7 @@ private:
             next = text_.word("LOOKUP_TABLE");
         }
         if (next != "lookup_table")
-            throw RefusedByVtk();
+            throw InputError("there is no LOOKUP_TABLE after SCALARS");
         text_.word("the name of a lookup table");
         check_array_of(type, *tuples_, components, "SCALARS");
     }
@@ -279,9 +280,29 @@ private:
             if (points > std::numeric_limits<std::int32_t>::max())
                 throw InputError(fmt::format("DIMENSIONS has {} points along an axis", points));
         }
+        check_dimensions();
+    }
+
+    void check_dimensions() const
+    {
         const auto& [x, y, z] = *dimensions_;
         if (y != 0 && z != 0 && x > std::numeric_limits<std::uint32_t>::max() / y / z)
             throw InputError(fmt::format("{} x {} x {} points are more than a mesh can have", x, y, z));
+    }
+
+    /// The first and the last point along each axis, in the place of DIMENSIONS.
+    void read_extent()
+    {
+        dimensions_.emplace();
+        for (std::uint64_t& points : *dimensions_) {
+            const std::int64_t first = text_.integer("the first point along an axis");
+            const std::int64_t last = text_.integer("the last point along an axis");
+            constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+            if (first < -most || last > most || last < first)
+                throw InputError(fmt::format("EXTENT goes from {} to {}", first, last));
+            points = static_cast<std::uint64_t>(last - first) + 1;
+        }
+        check_dimensions();
     }
 
     void check_coordinates(std::size_t axis)
@@ -291,11 +312,12 @@ private:
             throw InputError(
                 fmt::format("{}_COORDINATES has {} values, which are not those of DIMENSIONS", "XYZ"[axis], count));
         check_array(count, 1, "coordinates");
+        ++axes_;
     }
 
     std::uint64_t point_count() const
     {
-        if (is_grid() && data_set_ != "structured_grid")
+        if (is_grid() && !data_set_.starts_with("structured_grid"))
             return dimensions_ ? (*dimensions_)[0] * (*dimensions_)[1] * (*dimensions_)[2] : 0;
         return points_;
     }
@@ -325,7 +347,7 @@ private:
     {
         const auto type = value_type(type_word);
         if (!type)
-            throw RefusedByVtk();
+            throw InputError(fmt::format("\"{}\" is not a type of values", printable(type_word)));
         check_array_of(*type, tuples, components, of_what);
     }
 
@@ -470,14 +492,17 @@ private:
 
     std::vector<std::int64_t> read_named_integers(const char* name, std::uint64_t count)
     {
-        if (text_.word(name) == "metadata") {
+        std::string found = text_.word(name);
+        if (found == "metadata") { // of the array before
             skip_metadata();
-            text_.word(name);
+            found = text_.word(name);
         }
+        if (found != name)
+            throw InputError(fmt::format("there is {} in the place of {}", printable(found), name));
         const std::string word = text_.word("the type of an array");
         const auto type = value_type(word);
         if (!type)
-            throw RefusedByVtk();
+            throw InputError(fmt::format("\"{}\" is not a type of values", printable(word)));
         if (type->kind != ValueType::Kind::integer)
             throw InputError(fmt::format("{} are of the type {}", name, word));
         if (count == 0)
@@ -488,11 +513,15 @@ private:
     /// What depends on several sections, which come in any order.
     void check_together() const
     {
-        if (data_set_ == "structured_grid" && dimensions_ &&
+        if (is_grid() && !dimensions_)
+            throw InputError("there are no DIMENSIONS");
+        if (data_set_.starts_with("structured_grid") &&
             points_ != (*dimensions_)[0] * (*dimensions_)[1] * (*dimensions_)[2])
             throw InputError(fmt::format("{} points are not the {} x {} x {} of DIMENSIONS", points_, (*dimensions_)[0],
                                          (*dimensions_)[1], (*dimensions_)[2]));
-        if (data_set_ != "unstructured_grid")
+        if (data_set_.starts_with("rectilinear_grid") && axes_ < 3)
+            throw InputError("there are not coordinates of all three axes");
+        if (!data_set_.starts_with("unstructured_grid"))
             return;
         if (types_.size() != cells_.size())
             throw InputError(fmt::format("there are {} cells, but {} cell types", cells_.size(), types_.size()));
@@ -534,6 +563,7 @@ private:
     std::uint64_t surface_cells_ = 0;
     std::vector<std::int64_t> types_;
     std::optional<std::array<std::uint64_t, 3>> dimensions_;
+    int axes_ = 0;                        // that have coordinates
     std::optional<std::uint64_t> tuples_; // of the arrays in the section at hand
     int turns_ = 0;
 };

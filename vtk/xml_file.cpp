@@ -1,6 +1,7 @@
 #include "scene/error.h"
 #include "vtk/message_capture.h"
 #include "vtk/vtk_file.h"
+#include "vtk/xml_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -28,6 +29,7 @@ bool has_closing_tag(const std::filesystem::path& path)
 
 VtkFile read_xml_file(const std::filesystem::path& path)
 {
+    check_xml_file(path);
     const vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->SetFileName(path.c_str());
     std::vector<std::string> notes = run_reader(path, [&] { reader->Update(); });
