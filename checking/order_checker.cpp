@@ -1,6 +1,7 @@
 #include "checking/order_checker.h"
 
-#include "scene/error.h"
+#include "checking/order_positions.h"
+#include "checking/planar_faces.h"
 #include "scene/face_loop.h"
 #include "scene/face_overlap.h"
 #include "sorting/boundary_relations.h"
@@ -36,34 +37,6 @@ void each_cell(const Scene& scene, const Body& body)
 Pair ascending(CellId a, CellId b)
 {
     return {std::min(a, b), std::max(a, b)};
-}
-
-// Throws for the lowest cell, in the caller's numbering, with a face that is not planar.
-void require_planar_faces(const Scene& scene)
-{
-    if (scene.is_surface() || scene.is_tetrahedral())
-        return;
-    const Mesh& mesh = scene.mesh();
-    const auto is_planar = [&](CellId cell, int face) {
-        const FaceLoop loop = face_loop(mesh, cell, face);
-        const PointId* v = loop.begin();
-        return loop.count < 4 ||
-               side_of_plane(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) == Sign::zero;
-    };
-    constexpr CellId none = std::numeric_limits<CellId>::max();
-    std::atomic<CellId> lowest{none};
-    each_cell(scene, [&](CellId cell) {
-        for (int face = 0; face < face_count(mesh.shapes[cell]); ++face)
-            if (!is_planar(cell, face)) {
-                CellId known = lowest.load();
-                const CellId caller = scene.caller_cells()[cell];
-                while (caller < known && !lowest.compare_exchange_weak(known, caller)) {}
-                return;
-            }
-    });
-    if (lowest != none)
-        throw InputError(
-            fmt::format("cell {}: a face is not planar; subdivide the mesh into tetrahedra", lowest.load()));
 }
 
 // The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such
@@ -294,11 +267,9 @@ const Relations::UnorderableSets& Relations::unorderable() const
     });
 }
 
-OrderChecker::OrderChecker(const Scene& scene) : scene_(scene), inner_cells_(scene.cell_count())
+OrderChecker::OrderChecker(const Scene& scene) : scene_(scene)
 {
     require_planar_faces(scene);
-    const auto caller = scene.caller_cells();
-    each_cell(scene, [&](CellId cell) { inner_cells_[caller[cell]] = cell; });
 }
 
 Relations OrderChecker::relations_at(const glm::dvec4& eye) const
@@ -309,7 +280,7 @@ Relations OrderChecker::relations_at(const glm::dvec4& eye) const
 
 CheckResult OrderChecker::check(const Relations& relations, const Order& order, CheckOptions options) const
 {
-    const LargeArray<std::uint32_t> place = positions(order);
+    const LargeArray<std::uint32_t> place = order_positions(scene_, order);
     const auto tally = [&](std::span<const std::uint32_t> set_of, std::size_t most) {
         const auto join = [](Tally a, const Tally& b) {
             a.add(b);
@@ -351,28 +322,6 @@ CheckResult OrderChecker::check(const Relations& relations, const Order& order, 
         result.witnesses.push_back(
             {scene_.caller_cells()[front], scene_.caller_cells()[back], witness(relations, front, back)});
     return result;
-}
-
-// Of every inner cell, where it stands in the order.
-LargeArray<std::uint32_t> OrderChecker::positions(const Order& order) const
-{
-    constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-    LargeArray<std::uint32_t> place(scene_.cell_count());
-    std::fill(place.begin(), place.end(), nowhere);
-    for (std::size_t i = 0; i < order.back_to_front.size(); ++i) {
-        const CellId cell = order.back_to_front[i];
-        if (cell >= scene_.cell_count())
-            throw InputError(
-                fmt::format("the order lists cell {}, but the scene has {} cells", cell, scene_.cell_count()));
-        std::uint32_t& at = place[inner_cells_[cell]];
-        if (at != nowhere)
-            throw InputError(fmt::format("the order lists cell {} twice", cell));
-        at = static_cast<std::uint32_t>(i);
-    }
-    for (CellId cell = 0; order.back_to_front.size() < scene_.cell_count() && cell < scene_.cell_count(); ++cell)
-        if (place[inner_cells_[cell]] == nowhere)
-            throw InputError(fmt::format("the order leaves out cell {}", cell));
-    return place;
 }
 
 glm::dvec3 OrderChecker::witness(const Relations& relations, CellId front, CellId back) const
