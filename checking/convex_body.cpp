@@ -205,7 +205,8 @@ bool occludes(const ConvexBody& front, const ConvexBody& back, const glm::dvec4&
 
 glm::dvec3 occlusion_witness(const ConvexBody& front, const ConvexBody& back, const glm::dvec4& eye)
 {
-    const Row from{Number(eye.x), Number(eye.y), Number(eye.z), Number(eye.w)};
+    const double side = eye.w < 0 ? -1 : 1;
+    const Row from{Number(side * eye.x), Number(side * eye.y), Number(side * eye.z), Number(side * eye.w)};
     std::vector<Row> of_back = rows_of(back), of_front = rows_of(front);
     if (is_triangle(front))
         of_front.push_back(from);

@@ -35,7 +35,7 @@ bool occludes(const ConvexBody& front, const ConvexBody& back, const glm::dvec4&
 
 /// For bodies of which `front` occludes `back`: where a ray from the eye through the interiors of both enters `back`.
 /// The ray is found in exact rational arithmetic, which takes tenths of a second for two hexahedra; the point is
-/// rounded.
+/// rounded. The eye's weight may have either sign.
 glm::dvec3 occlusion_witness(const ConvexBody& front, const ConvexBody& back, const glm::dvec4& eye);
 
 } // namespace visorder

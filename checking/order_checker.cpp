@@ -1,5 +1,6 @@
 #include "checking/order_checker.h"
 
+#include "checking/convex_body.h"
 #include "checking/order_positions.h"
 #include "checking/planar_faces.h"
 #include "scene/face_loop.h"
@@ -249,20 +250,37 @@ Relations::UnorderableSets Relations::find_unorderable() const
     return {std::move(members), {}};
 }
 
+// What cycle_crossings.h needs to know of the sets.
+void Relations::find_neighbours(UnorderableSets& unorderable) const
+{
+    SetsAndNeighbours& known = unorderable.known;
+    const auto caller = scene_->caller_cells();
+    std::vector<std::uint32_t> set_of_caller(scene_->cell_count(), 0);
+    for (std::uint32_t i = 0; i < unorderable.sets.size(); ++i)
+        for (CellId cell : unorderable.sets[i])
+            set_of_caller[cell] = i + 1;
+    known.set_of.resize(scene_->cell_count());
+    known.sets.resize(unorderable.sets.size());
+    for (CellId cell = 0; cell < scene_->cell_count(); ++cell) {
+        known.set_of[cell] = set_of_caller[caller[cell]];
+        if (known.set_of[cell] != 0)
+            known.sets[known.set_of[cell] - 1].push_back(cell);
+    }
+    visit([&](CellId front, CellId back) {
+        if (known.set_of[front] != known.set_of[back])
+            known.relations.push_back({front, back});
+    });
+    std::sort(known.relations.begin(), known.relations.end());
+}
+
 const Relations::UnorderableSets& Relations::unorderable() const
 {
     return on_demand_->unorderable.get([&] {
         if (on_demand_->an_order_is_known)
             return UnorderableSets{};
         UnorderableSets found = find_unorderable();
-        if (!found.sets.empty()) {
-            std::vector<std::uint32_t> set_of_caller(scene_->cell_count(), 0);
-            for (std::uint32_t i = 0; i < found.sets.size(); ++i)
-                for (CellId cell : found.sets[i])
-                    set_of_caller[cell] = i + 1;
-            found.set_of.resize(set_of_caller.size());
-            each_cell(*scene_, [&](CellId cell) { found.set_of[cell] = set_of_caller[scene_->caller_cells()[cell]]; });
-        }
+        if (!found.sets.empty())
+            find_neighbours(found);
         return found;
     });
 }
@@ -314,13 +332,21 @@ CheckResult OrderChecker::check(const Relations& relations, const Order& order, 
         return result;
     }
     const Relations::UnorderableSets& unorderable = relations.unorderable();
-    Tally found = tally(unorderable.set_of, options.max_witnesses);
-    result.violations = found.violations;
+    Tally found = tally(unorderable.known.set_of, options.max_witnesses);
     result.violations_in_cycles = found.in_cycles;
     result.unorderable = unorderable.sets;
-    for (const auto& [front, back] : found.first())
+    const std::vector<Relation> across = violations_across_sets(scene_, relations.eye(), unorderable.known, place);
+    result.violations_across_cycles = across.size();
+    for (const Relation& relation : across)
+        found(relation.front, relation.back);
+    result.violations = found.violations;
+    for (const auto& [front, back] : found.first()) {
+        const bool is_across = std::binary_search(across.begin(), across.end(), Relation{front, back});
         result.witnesses.push_back(
-            {scene_.caller_cells()[front], scene_.caller_cells()[back], witness(relations, front, back)});
+            {scene_.caller_cells()[front], scene_.caller_cells()[back],
+             is_across ? occlusion_witness(body_of(scene_.mesh(), front), body_of(scene_.mesh(), back), relations.eye())
+                       : witness(relations, front, back)});
+    }
     return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "checking/check_result.h"
+#include "checking/cycle_crossings.h"
 #include "scene/large_array.h"
 #include "scene/scene.h"
 #include "sorting/relation.h"
@@ -38,7 +39,7 @@ private:
 
     struct UnorderableSets {
         std::vector<std::vector<CellId>> sets; // caller's numbering
-        std::vector<std::uint32_t> set_of;     // of inner cells: 1 + index into sets, or 0; empty if there are no sets
+        SetsAndNeighbours known;               // the same sets; all empty if there are none
     };
     struct OnDemand {
         std::atomic<bool> an_order_is_known{false};
@@ -50,6 +51,7 @@ private:
     void evaluate_interior();
     void evaluate_boundary();
     UnorderableSets find_unorderable() const;
+    void find_neighbours(UnorderableSets& unorderable) const;
     const UnorderableSets& unorderable() const;
 
     // Relations across interior faces are kept at the cell with the lower number: bits of its exit faces, and, above,

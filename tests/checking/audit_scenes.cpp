@@ -319,7 +319,7 @@ AuditScene bars(std::uint64_t number)
     if (random.below(2) == 0) {
         const Mesh more = interlocked_bars(true);
         glm::dvec3 aside = random.integer_point(-9, 9);
-        aside.z += random.below(2) == 0 ? 20 : 40;
+        aside.z += random.below(2) == 0 ? 30 : 50;
         for (CellId cell = 0; cell < more.cell_count(); ++cell) {
             std::array<glm::dvec3, 8> corners;
             for (std::size_t i = 0; i < 8; ++i)
