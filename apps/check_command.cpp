@@ -12,7 +12,7 @@
 #include <memory>
 #include <utility>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -111,4 +111,4 @@ void add_check_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

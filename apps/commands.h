@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-namespace visorder {
+namespace visorder::apps {
 
 /// What a chosen subcommand does; returns the exit code. Throws InputError.
 using Command = std::function<int()>;
@@ -21,4 +21,4 @@ inline constexpr int exit_success = 0;
 inline constexpr int exit_wrong = 1;     ///< an order, or a guarantee, is wrong
 inline constexpr int exit_bad_input = 2; ///< and one line on standard error says which
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -11,7 +11,9 @@
 #include <memory>
 #include <unistd.h>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace bench;
 
 namespace {
 
@@ -90,4 +92,4 @@ void add_compare_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::apps {
 
 glm::ivec2 image_size(const std::string& text, const char* option)
 {
@@ -20,4 +20,4 @@ glm::ivec2 image_size(const std::string& text, const char* option)
     throw InputError(fmt::format("{} takes WxH in pixels, such as 512x512, not \"{}\"", option, text));
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -78,4 +78,4 @@ void add_inspect_command(CLI::App& app, Command& chosen)
     command->callback([source, &chosen] { chosen = [source] { return run(*source); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

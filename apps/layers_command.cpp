@@ -16,7 +16,9 @@
 #include <memory>
 #include <numbers>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace bench;
 
 namespace {
 
@@ -231,4 +233,4 @@ void add_layers_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

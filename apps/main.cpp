@@ -15,7 +15,7 @@ namespace {
 int bad_input(const std::string& message)
 {
     fmt::print(stderr, "visorder: {}\n", message);
-    return visorder::exit_bad_input;
+    return visorder::apps::exit_bad_input;
 }
 
 } // namespace
@@ -23,6 +23,7 @@ int bad_input(const std::string& message)
 int main(int argc, char** argv)
 {
     using namespace visorder;
+    using namespace visorder::apps;
     CLI::App app{"visorder: visibility orders of the cells of 3D scenes"};
     app.set_version_flag("--version", std::string("visorder ") + version);
     app.require_subcommand(1);

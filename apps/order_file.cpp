@@ -13,7 +13,7 @@
 #include <regex>
 #include <string>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::vector<CellId> read_order(const std::filesystem::path& file)
     return file.extension() == ".npy" ? cells_of_npy(file, bytes) : cells_of_text(file, bytes);
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::apps {
 
 // Files that list cells: with the ending .npy a NumPy array of one dimension, else text, a number a line.
 
@@ -17,4 +17,4 @@ void write_order(const std::filesystem::path& file, std::span<const CellId> cell
 /// naming the file and the place, for anything else.
 std::vector<CellId> read_order(const std::filesystem::path& file);
 
-} // namespace visorder
+} // namespace visorder::apps

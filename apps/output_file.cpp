@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace visorder {
+namespace visorder::apps {
 
 void write_file(const std::filesystem::path& file, std::string_view text)
 {
@@ -36,4 +36,4 @@ void write_file(const std::filesystem::path& file, std::string_view text)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::apps

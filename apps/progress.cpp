@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace visorder {
+namespace visorder::apps {
 
 Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0 && isatty(STDOUT_FILENO) != 0) {}
 
@@ -23,4 +23,4 @@ void Progress::show(const std::string& what)
     std::fflush(stderr);
 }
 
-} // namespace visorder
+} // namespace visorder::apps

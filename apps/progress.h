@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace visorder {
+namespace visorder::apps {
 
 /// One line on standard error that says what is being done, replaced as work goes on and cleared at the end. Silent
 /// where standard error or standard output is not a terminal.
@@ -20,4 +20,4 @@ private:
     bool shown_ = false;
 };
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -17,7 +17,9 @@
 #include <memory>
 #include <string>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace bench;
 
 namespace {
 
@@ -112,7 +114,7 @@ int run(const Arguments& arguments)
     fmt::print("{}: {} x {}, {} cells as {} triangles in {:.3f} s by {} and {} on {}; sorted by {} ({})\n",
                arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
                taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
-               context.renderer(), arguments.sorter, name(sorter->guarantee()));
+               context.renderer(), arguments.sorter, describe(sorter->guarantee(), scene));
     return exit_success;
 }
 
@@ -165,4 +167,4 @@ void add_render_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

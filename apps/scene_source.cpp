@@ -1,16 +1,16 @@
 #include "apps/scene_source.h"
 
 #include "bench/generated_scene.h"
+#include "files/read_mesh.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
-#if defined(VISORDER_WITH_VTK)
-#include "vtk/read_mesh.h"
-#endif
 
 #include <fmt/format.h>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::apps {
+
+using namespace scenes;
 
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
 {
@@ -34,15 +34,11 @@ SourcedMesh load(const SceneSource& source)
         result.name = source.generated;
         result.mesh = generate(source.generated);
     } else {
-#if defined(VISORDER_WITH_VTK)
         result.name = source.file;
         MeshFile file = read_mesh(source.file, {source.scalar, source.weld});
         result.mesh = std::move(file.mesh);
         result.scalar = std::move(file.scalar);
         result.notes = std::move(file.notes);
-#else
-        throw InputError(fmt::format("{}: this build reads no files, for it is without VTK", source.file));
-#endif
     }
     result.source_cells = result.mesh.cell_count();
     if (source.whole) {
@@ -56,4 +52,4 @@ SourcedMesh load(const SceneSource& source)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::apps

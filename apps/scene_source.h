@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::apps {
 
 /// The one mesh that a subcommand works on, as the command line names it.
 struct SceneSource {
@@ -35,4 +35,4 @@ std::shared_ptr<SceneSource> add_scene_source(CLI::App& command);
 /// Reads or makes the mesh. Throws InputError.
 SourcedMesh load(const SceneSource& source);
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -34,7 +34,7 @@ int run(const Arguments& arguments)
     if (!arguments.map.empty())
         write_order(arguments.map, cell_of);
     fmt::print("{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output, order.back_to_front.size(),
-               arguments.sorter, name(sorter->guarantee()), order.cycles.size());
+               arguments.sorter, describe(sorter->guarantee(), scene), order.cycles.size());
     if (sourced.source_cells != cell_of.size())
         fmt::print("cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
                    sourced.source_cells);
@@ -58,4 +58,4 @@ void add_sort_command(CLI::App& app, Command& chosen)
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

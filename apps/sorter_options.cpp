@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-namespace visorder {
+namespace visorder::apps {
 
 void add_sorter_options(CLI::App& command, SorterOptions& options)
 {
@@ -39,4 +39,4 @@ void add_sorter_options(CLI::App& command, SorterOptions& options)
         ->check(CLI::IsMember({"auto", "egl", "osmesa"}));
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -27,4 +27,4 @@ void add_sorters_command(CLI::App& app, Command& chosen)
     command->callback([&chosen] { chosen = run; });
 }
 
-} // namespace visorder
+} // namespace visorder::apps

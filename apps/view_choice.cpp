@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace visorder {
+namespace visorder::apps {
 
 namespace {
 
@@ -54,4 +54,4 @@ View view_of(const ViewChoice& choice, const Scene& scene, glm::ivec2 size, doub
     return view;
 }
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace visorder {
+namespace visorder::apps {
 
 /// Where to look from, as the command line says: --eye X,Y,Z or --direction X,Y,Z.
 struct ViewChoice {
@@ -20,4 +20,4 @@ std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command);
 /// A view of the whole scene from there. Throws InputError where neither or both were given, or no such eye can be.
 View view_of(const ViewChoice& choice, const Scene& scene, glm::ivec2 size = {512, 512}, double view_angle = 30);
 
-} // namespace visorder
+} // namespace visorder::apps

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -87,4 +87,4 @@ Mesh grid_scene(std::size_t cells, std::uint64_t)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -4,14 +4,12 @@
 #include "bench/image_file.h"
 #include "bench/views.h"
 #include "checking/order_checker.h"
+#include "files/read_mesh.h"
 #include "graphics/graphics_error.h"
 #include "scene/error.h"
 #include "scene/stopwatch.h"
 #include "scene/subdivision.h"
 #include "sorting/registry.h"
-#if defined(VISORDER_WITH_VTK)
-#include "vtk/read_mesh.h"
-#endif
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,7 +17,9 @@
 #include <memory>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::bench {
+
+using namespace scenes;
 
 namespace {
 
@@ -34,16 +34,12 @@ std::vector<Source> sources_of(const ComparisonOptions& options)
 {
     std::vector<Source> sources;
     for (const std::filesystem::path& file : options.files) {
-#if defined(VISORDER_WITH_VTK)
         const ReadOptions read{options.scalar, options.weld};
         sources.push_back({file.filename().string(), [file, read](std::vector<std::string>& notes) {
                                MeshFile result = read_mesh(file, read);
                                notes = std::move(result.notes);
                                return std::move(result.mesh);
                            }});
-#else
-        throw InputError(fmt::format("{}: this build reads no files, for it is without VTK", file.string()));
-#endif
     }
     for (const std::string& specification : options.generated)
         sources.push_back(
@@ -159,7 +155,7 @@ class ViewFrames {
 public:
     void keep(Image image, const Order& order, RunResult& run)
     {
-        if (exact_ == none && run.guarantee == Guarantee::exact) {
+        if (exact_ == none && run.guarantee != Guarantee::approximate) {
             exact_ = drawn_.size();
             exact_order_ = order;
         }
@@ -172,7 +168,7 @@ public:
         if (exact_ != none)
             return;
         const auto sorter = make_sorter("auto", scene);
-        if (sorter->guarantee() != Guarantee::exact)
+        if (sorter->guarantee() == Guarantee::approximate)
             return;
         sorter->sort(view, exact_order_);
         exact_ = drawn_.size();
@@ -327,4 +323,4 @@ Comparison compare(const ComparisonOptions& options, const Progress& progress)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// What to compare.
 struct ComparisonOptions {
@@ -69,7 +69,7 @@ struct RunResult {
     std::string skipped;               ///< why, where the sorter cannot take the scene; nothing else is measured then
 
     /// Whether the sorter broke its promise.
-    bool failed() const { return skipped.empty() && guarantee == Guarantee::exact && violations > 0; }
+    bool failed() const { return skipped.empty() && guarantee != Guarantee::approximate && violations > 0; }
 };
 
 struct Comparison {
@@ -85,4 +85,4 @@ struct Comparison {
 /// what is being done. Throws InputError for a file, a scene or a sorter that cannot be had.
 Comparison compare(const ComparisonOptions& options, const std::function<void(const std::string&)>& progress);
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace visorder {
+namespace visorder::bench {
+
+using namespace scenes;
 
 namespace {
 
@@ -74,4 +76,4 @@ std::vector<NamedView> twenty_views(const Scene& scene, glm::ivec2 size)
     return views;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

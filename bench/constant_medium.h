@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// How far the transmittance of a medium that is the same everywhere is from what the lengths of rays through the scene
 /// say: what is missed, hit twice or taken too long or too short by a projector, and nothing else.
@@ -27,6 +27,6 @@ TransmittanceErrors transmittance_errors(const Scene& scene, const View& view, c
 
 /// Twenty views: the hard ones, from inside with an angle of 120 degrees, and random ones in perspective and parallel
 /// projection.
-std::vector<NamedView> twenty_views(const Scene& scene, glm::ivec2 size);
+std::vector<scenes::NamedView> twenty_views(const Scene& scene, glm::ivec2 size);
 
-} // namespace visorder
+} // namespace visorder::bench

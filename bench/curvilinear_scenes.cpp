@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 // Why the grids of this file have no cycles: each is a plane grid of rectangles and isosceles trapezoids, extruded
 // straight up. Give every point of the plane grid the height of a convex function of its distance from the body (plus
@@ -101,4 +101,4 @@ Mesh post_scene(std::size_t cells, std::uint64_t)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

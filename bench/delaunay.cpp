@@ -13,7 +13,7 @@
 #include <numeric>
 #include <utility>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -131,4 +131,4 @@ void keep_cells(Mesh& mesh, const std::function<bool(const Corners&)>& keep)
     name_tetrahedra(mesh);
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

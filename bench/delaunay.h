@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 /// The Delaunay tetrahedralisation of the points, which it renumbers along a space-filling curve; no scalars yet. The
 /// cells stand in VTK's vertex order with their lowest vertex first, ascending, so that the mesh depends on the points
@@ -22,4 +22,4 @@ using Corners = std::array<glm::dvec3, 4>;
 /// in order.
 void keep_cells(Mesh& mesh, const std::function<bool(const Corners&)>& keep);
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -99,4 +99,4 @@ Mesh cavity_scene(std::size_t cells, std::uint64_t seed)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -3,7 +3,7 @@
 #include "checking/ray_caster.h"
 #include "scene/stopwatch.h"
 
-namespace visorder {
+namespace visorder::bench {
 
 std::vector<MediumPoint> medium_of(const TransferFunction& function)
 {
@@ -48,4 +48,4 @@ std::vector<IntegratorResult> Frames::integrators(const View& view, const Order&
     return results;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

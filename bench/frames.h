@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// What one integrator makes of a scene, against the reference ray caster.
 struct IntegratorResult {
@@ -50,4 +50,4 @@ private:
     std::unique_ptr<ProjectionRenderer> renderer_;
 };
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -65,4 +65,4 @@ Mesh helical_gear_scene(std::size_t cells, std::uint64_t)
     return gear(cells, 0.5 / teeth);
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

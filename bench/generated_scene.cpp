@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -137,4 +137,4 @@ Mesh generate(std::string_view specification)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

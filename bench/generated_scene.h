@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::scenes {
 
 /// A family of scenes that are made, not read, by its name.
 struct GeneratedScene {
@@ -25,4 +25,4 @@ std::span<const GeneratedScene> generated_scenes();
 /// a number below 2^64.
 Mesh generate(std::string_view specification);
 
-} // namespace visorder
+} // namespace visorder::scenes

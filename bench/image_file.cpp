@@ -15,7 +15,7 @@
 #include <png.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::bench {
 
 namespace {
 
@@ -98,4 +98,4 @@ Image read_exr(const std::filesystem::path& file)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// How a linear image is shown in a PNG file.
 struct PngStyle {
@@ -27,4 +27,4 @@ void write_exr(const Image& image, const std::filesystem::path& file);
 /// file, where it cannot be read or has no such channels.
 Image read_exr(const std::filesystem::path& file);
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -33,6 +33,7 @@
 namespace {
 
 using namespace visorder;
+using namespace visorder::bench;
 
 constexpr std::string_view peak_prefix = "peak:";
 constexpr double exact_rmse = 1e-4;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -69,4 +69,4 @@ void add_hexahedra(Mesh& mesh, const LatticeSize& points, bool closed,
             }
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

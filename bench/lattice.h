@@ -8,7 +8,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::scenes {
 
 /// How many along each axis.
 using LatticeSize = std::array<std::size_t, 3>;
@@ -41,4 +41,4 @@ std::size_t count_for(std::size_t size, SizeOf&& size_of)
     return low;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

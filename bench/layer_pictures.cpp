@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
-namespace visorder {
+namespace visorder::bench {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::uint32_t write_layer_pictures(const Mesh& mesh, LayersSorter& sorter, const
     return layers.count;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

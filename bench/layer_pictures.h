@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// Paints the layers of a surface as one view sees them, in colour, what is without proof in grey (after Fig. 3 of
 /// Krishnan, Silva, Wei 2002): layers.png from that view, turned.png from another one, and layer-001.png, ... each
@@ -15,4 +15,4 @@ namespace visorder {
 std::uint32_t write_layer_pictures(const Mesh& mesh, LayersSorter& sorter, const View& view, const View& turned,
                                    const std::filesystem::path& folder);
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-namespace visorder {
+namespace visorder::bench {
 
 namespace {
 
@@ -163,4 +163,4 @@ LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, con
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

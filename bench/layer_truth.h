@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// A triangle at a sample point.
 struct TrueFragment {
@@ -43,4 +43,4 @@ struct LayerCheck {
 /// of the image.
 LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers);
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::bench {
 
 namespace {
 
@@ -138,4 +138,4 @@ Image side_by_side(std::span<const Image> pictures, int gap)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::bench

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// Paints cells one over the other in the order given, each as its silhouette in one translucent colour by its mean
 /// scalar, over white. Not a volume renderer: what it is for is to show where two orders differ. Takes cells before the
@@ -21,4 +21,4 @@ Image paint(const Mesh& mesh, std::span<const CellId> back_to_front, const View&
 /// Puts pictures of one height side by side with a white gap.
 Image side_by_side(std::span<const Image> pictures, int gap);
 
-} // namespace visorder
+} // namespace visorder::bench

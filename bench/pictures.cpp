@@ -16,6 +16,8 @@
 namespace {
 
 using namespace visorder;
+using namespace visorder::bench;
+using namespace visorder::scenes;
 
 // One scene in an order that is right from this view, by cell centres, and where the two differ.
 void right_against_centroid(const char* specification, const View& view, double opacity, const std::string& file)

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 // A ring: points p_0, p_1, ... zigzag in a plane between an inner and an outer circle, and cell i is the tetrahedron of
 // p_i, p_(i+1), p_(i+2) and an apex under the middle. Outer points stand so far ahead of the inner points that they are
@@ -88,4 +88,4 @@ Mesh pinwheel_scene(std::size_t cells, std::uint64_t)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -72,4 +72,4 @@ double cube_root(double value)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

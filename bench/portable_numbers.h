@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <random>
 
-namespace visorder {
+namespace visorder::scenes {
 
 // What the generated scenes compute with, so that a specification gives the same mesh, bit by bit, on every machine:
 // the standard library's distributions, sines and roots may differ from one to the next.
@@ -30,4 +30,4 @@ double cosine_of_turns(double turns);
 /// The cube root of a positive number.
 double cube_root(double value);
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::scenes {
 
 Mesh reactor_scene(std::size_t cells, std::uint64_t)
 {
@@ -31,4 +31,4 @@ Mesh reactor_scene(std::size_t cells, std::uint64_t)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-namespace visorder {
+namespace visorder::bench {
 
 namespace {
 
@@ -219,7 +219,7 @@ std::string json(const Comparison& comparison, const Machine& machine)
         if (!run.skipped.empty()) {
             entry["skipped"] = run.skipped;
         } else {
-            entry["guarantee"] = name(run.guarantee);
+            entry["guarantee"] = describe(run.guarantee, scene_of(comparison, run.scene).overlapping_pairs);
             entry["prepare_s"] = run.prepare_s;
             entry["sort_s"] = run.sort_s;
             entry["structure_bytes"] = run.structure_bytes;
@@ -239,4 +239,4 @@ std::string json(const Comparison& comparison, const Machine& machine)
     return document.dump(2) + "\n";
 }
 
-} // namespace visorder
+} // namespace visorder::bench

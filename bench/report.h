@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace visorder {
+namespace visorder::bench {
 
 /// What the figures were measured on.
 struct Machine {
@@ -21,4 +21,4 @@ std::string table(const Comparison& comparison, bool colour, bool statistics);
 /// The comparison in the project's result format: every run of every view. What was not measured is null.
 std::string json(const Comparison& comparison, const Machine& machine);
 
-} // namespace visorder
+} // namespace visorder::bench

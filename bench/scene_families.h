@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace visorder {
+namespace visorder::scenes {
 
 // The makers of the generated scenes. Each takes the number of tetrahedra (or triangles) asked for, not less than its
 // family's minimum, and makes about as many, or the hexahedra that become about as many, six each. Scalars come later.
@@ -99,4 +99,4 @@ Mesh knot_scene(std::size_t cells, std::uint64_t seed);
 /// obstruct each other in cycles.
 Mesh cards_scene(std::size_t cells, std::uint64_t seed);
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -188,4 +188,4 @@ Mesh cards_scene(std::size_t cells, std::uint64_t seed)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -4,7 +4,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::scenes {
 
 Mesh tori_scene(std::size_t cells, std::uint64_t)
 {
@@ -35,4 +35,4 @@ Mesh tori_scene(std::size_t cells, std::uint64_t)
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 using namespace visorder;
+using namespace visorder::bench;
+using namespace visorder::scenes;
 
 // Transmittance of a constant medium against the lengths of rays: no cracks, no double hits. Exit status 1 where a
 // pixel is off by more than 1e-4.

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 void drop_unused_points(Mesh& mesh)
 {
@@ -22,4 +22,4 @@ void drop_unused_points(Mesh& mesh)
         vertex = number[vertex];
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

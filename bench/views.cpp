@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-namespace visorder {
+namespace visorder::scenes {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::vector<NamedView> hard_views(const Scene& scene, glm::ivec2 size)
     return views;
 }
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::scenes {
 
 /// A view, and in words where from, so that a table or a failing test can name it.
 struct NamedView {
@@ -24,4 +24,4 @@ std::vector<NamedView> random_views(const Scene& scene, int count, std::uint64_t
 /// each axis in parallel projection.
 std::vector<NamedView> hard_views(const Scene& scene, glm::ivec2 size);
 
-} // namespace visorder
+} // namespace visorder::scenes

@@ -56,6 +56,7 @@ VTK_MODULE_INIT(vtkRenderingVolumeOpenGL2)
 namespace {
 
 using namespace visorder;
+using namespace visorder::bench;
 using Clock = std::chrono::steady_clock;
 
 constexpr int image_side = 512;

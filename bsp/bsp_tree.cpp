@@ -308,7 +308,7 @@ BspTree::BspTree(const Scene& scene, std::uint64_t seed) : scene_(scene)
         for (CellId cell = 0; cell < scene.cell_count(); ++cell)
             faces_.push_back({cell, 0});
     else
-        faces_ = scene.boundary().faces;
+        faces_ = scene.relation_faces();
     BspConstruction(*this, seed).run();
     frame_ = unit_frame(scene.bounds());
     planes_.reserve(nodes_.size());

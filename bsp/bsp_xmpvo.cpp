@@ -2,6 +2,7 @@
 
 #include "bsp/bsp_merge.h"
 #include "sorting/registry.h"
+#include "sorting/tentative_relations.h"
 
 #include <algorithm>
 #include <array>
@@ -58,6 +59,8 @@ private:
 BspXmpvo::BspXmpvo(const Scene& scene, std::uint64_t seed)
     : scene_(scene), tree_(scene, seed), boundary_cells_(tree_.faces(), scene.cell_count()), cover_search_(scene, tree_)
 {
+    if (!scene.is_surface())
+        scene.overlap_planes();
 }
 
 void BspXmpvo::look_at_faces(const glm::dvec4& eye)
@@ -91,6 +94,7 @@ void BspXmpvo::look_at_faces(const glm::dvec4& eye)
             }
         });
     cover_search_.look_from(eye, roles_, ranks_);
+    tentative_relations(scene_, eye, tentative_);
     relate_touching();
 }
 
@@ -106,6 +110,10 @@ void BspXmpvo::relate_touching()
             ++blocked_[boundary_cells_.of_face(cover.front)];
             ++cells_[boundary_cells_.of_face(cover.back)].front_end;
         }
+    for (const Relation& relation : tentative_) {
+        ++blocked_[boundary_cells_.of_cell(relation.front)];
+        ++cells_[boundary_cells_.of_cell(relation.back)].front_end;
+    }
     std::uint32_t count = 0;
     for (BoundaryCell& cell : cells_) {
         cell.front_begin = count;
@@ -115,6 +123,8 @@ void BspXmpvo::relate_touching()
     for (const auto& part : touching_covers_)
         for (const CoverSearch::Cover& cover : part)
             fronts_[cells_[boundary_cells_.of_face(cover.back)].front_end++] = boundary_cells_.of_face(cover.front);
+    for (const Relation& relation : tentative_)
+        fronts_[cells_[boundary_cells_.of_cell(relation.back)].front_end++] = boundary_cells_.of_cell(relation.front);
     relation_count_ = count;
 }
 
@@ -187,7 +197,7 @@ void BspXmpvo::sort_with_cycles(const glm::dvec4& eye, Order& order)
     if (scene_.is_surface())
         topological_sort_.run(scene_, all_relations_.relations, order);
     else
-        topological_sort_.run(scene_, signs_, all_relations_.relations, order);
+        topological_sort_.run(scene_, signs_, all_relations_.relations, tentative_, order);
     order.layer_begin.clear();
 }
 
@@ -205,7 +215,7 @@ std::size_t BspXmpvo::bytes() const
            size_of(large_state_) + size_of(roles_) + size_of(ranks_) + size_of(cells_) + size_of(slabs_) +
            size_of(fronts_) + size_of(blocked_) + sum_of(deferred_) + size_of(looking_) + size_of(exits_) +
            size_of(covered_) + size_of(listed_in_step_) + size_of(queue_) + sum_of(touching_covers_) + of_workspaces +
-           size_of(all_relations_.relations) + topological_sort_.bytes();
+           size_of(all_relations_.relations) + size_of(tentative_) + topological_sort_.bytes();
 }
 
 std::vector<Statistic> BspXmpvo::statistics() const

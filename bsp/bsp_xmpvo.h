@@ -33,7 +33,7 @@ public:
     /// Throws InputError, naming the cell, where a face is not planar.
     BspXmpvo(const Scene& scene, std::uint64_t seed);
 
-    Guarantee guarantee() const override { return Guarantee::exact; }
+    Guarantee guarantee() const override { return exact_up_to_overlaps(scene_); }
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
     /// Of the tree: "nodes", "splits" and "depth"; of the last sort: "pair tests", of an exit face and an entry face,
@@ -89,8 +89,8 @@ private:
     std::vector<std::uint32_t> fronts_;
     // Of a boundary cell: how many faces it covers that touch its own and are not listed, and this while the cells
     // behind its interior exit faces are not all listed.
-    static constexpr std::uint16_t not_ready = 0x8000;
-    std::vector<std::uint16_t> blocked_;
+    static constexpr std::uint32_t not_ready = 0x80000000;
+    std::vector<std::uint32_t> blocked_;
 
     // Of a slab: the ready cells that are still to look for what they cover.
     std::array<std::vector<std::uint32_t>, slab_count> deferred_;
@@ -108,6 +108,7 @@ private:
     std::vector<CoverSearch::Workspace> workspaces_; // of the threads
     std::size_t relation_count_ = 0;
 
+    std::vector<Relation> tentative_;
     BoundaryRelations all_relations_;
     TopologicalSort topological_sort_;
 };

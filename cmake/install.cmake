@@ -9,7 +9,7 @@ target_link_libraries(visorder PRIVATE $<INSTALL_INTERFACE:mpfr> $<INSTALL_INTER
 install(TARGETS visorder EXPORT visorder-targets)
 install(EXPORT visorder-targets FILE visorderTargets.cmake NAMESPACE visorder:: DESTINATION ${visorder_package_dir})
 
-set(visorder_rooms scene sorting depth mpvo xmpvo bsp graphics layering projection checking)
+set(visorder_rooms scene sorting depth mpvo xmpvo bsp graphics layering projection checking files)
 if(VISORDER_WITH_VTK)
   list(APPEND visorder_rooms vtk)
 endif()

@@ -17,6 +17,8 @@ constexpr double u = std::numeric_limits<double>::epsilon() / 2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Beyond this, sums and products of a few coordinates might overflow.
 constexpr double huge = 1e300;
+// More than the roundings of some products that underflow add up to.
+constexpr double underflow = 0x1p-1068;
 
 bool is_finite(const glm::dvec3& v)
 {
@@ -57,7 +59,7 @@ public:
 
     // How far a point's image may be off, of a cell whose points have no greater coordinates than `size`; infinite
     // where doubles do not tell.
-    double error(double size) const { return size < huge ? error_ + 32 * u * size : infinity; }
+    double error(double size) const { return size < huge ? error_ + 32 * u * size + underflow : infinity; }
 
     const bool parallel;
 

@@ -208,8 +208,6 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
     turned_.resize(scene.cell_count());
     std::transform(orientations.sign.begin(), orientations.sign.end(), turned_.begin(),
                    [](std::int8_t sign) { return static_cast<std::uint8_t>(sign < 0); });
-    for (const CellId cell : orientations.turned_flat)
-        turned_[cell] = 1;
 
     inner_cells_.resize(scene.cell_count());
     for (CellId inner = 0; inner < scene.cell_count(); ++inner)

@@ -12,6 +12,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <optional>
+#include <stdexcept>
 
 namespace visorder {
 
@@ -239,37 +240,146 @@ Adjacency adjacency_by(const Scene& scene, std::uint32_t row_length, Key&& key)
     return adjacency;
 }
 
+// Whether two loops of the same vertices run round the same way.
+bool same_way(const FaceLoop& a, const FaceLoop& b)
+{
+    const auto next_of = [](const FaceLoop& loop, PointId v) {
+        const PointId* at = std::find(loop.begin(), loop.end(), v);
+        return at + 1 == loop.end() ? *loop.begin() : *(at + 1);
+    };
+    return next_of(a, *a.begin()) == next_of(b, *a.begin());
+}
+
+bool same_vertices(const FaceLoop& a, const FaceLoop& b)
+{
+    return a.count == b.count &&
+           std::all_of(a.begin(), a.end(), [&](PointId v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+}
+
+// A face of a tetrahedron with four distinct vertices needs no search for repeated ones.
+FaceLoop loop_of(const Mesh& mesh, CellId cell, int face)
+{
+    if (mesh.shapes[cell] != CellShape::tetrahedron)
+        return face_loop(mesh, cell, face);
+    const auto v = mesh.cell(cell);
+    const auto corners = face_vertices(CellShape::tetrahedron, face);
+    return {{v[corners[0]], v[corners[1]], v[corners[2]], 0}, 3};
+}
+
+int matching_face_in(const Mesh& mesh, const Adjacency& adjacency, CellId cell, int face)
+{
+    const CellId neighbour = adjacency.row(cell)[static_cast<std::size_t>(face)];
+    const FaceLoop loop = loop_of(mesh, cell, face);
+    const auto row = adjacency.row(neighbour);
+    for (int other = 0; other < face_count(mesh.shapes[neighbour]); ++other)
+        if (row[static_cast<std::size_t>(other)] == cell && same_vertices(loop, loop_of(mesh, neighbour, other)))
+            return other;
+    throw std::logic_error("adjacency joins cells that share no face");
+}
+
+// The faces of joined solid cells that lie on the same side of them.
+std::vector<CellFace> find_folded(const Scene& scene, const Adjacency& adjacency)
+{
+    const Mesh& mesh = scene.mesh();
+    const auto& sign = scene.orientations().sign;
+    std::mutex mutex;
+    std::vector<CellFace> folded;
+    oneapi::tbb::parallel_for(Range(0, scene.cell_count(), 4096), [&](const Range& range) {
+        for (CellId cell = range.begin(); cell < range.end(); ++cell) {
+            const auto row = adjacency.row(cell);
+            for (int face = 0; face < face_count(mesh.shapes[cell]); ++face) {
+                const CellId neighbour = row[static_cast<std::size_t>(face)];
+                // Of the two cells the one with the lower number looks at their face for both.
+                if (neighbour <= cell || sign[cell] == 0 || sign[neighbour] == 0)
+                    continue;
+                const int other = matching_face_in(mesh, adjacency, cell, face);
+                // On opposite sides of a face, two cells run round it in opposite ways, both taken from outside.
+                if (same_way(loop_of(mesh, cell, face), loop_of(mesh, neighbour, other)) !=
+                    (sign[cell] == sign[neighbour]))
+                    continue;
+                const std::lock_guard lock(mutex);
+                folded.push_back({cell, static_cast<std::uint32_t>(face)});
+                folded.push_back({neighbour, static_cast<std::uint32_t>(other)});
+            }
+        }
+    });
+    std::sort(folded.begin(), folded.end());
+    return folded;
+}
+
+// Whether all faces of a flat tetrahedron that have area, and no others, are shared with solid cells.
+bool lies_between_solids(const Scene& scene, const Adjacency& adjacency, CellId flat)
+{
+    const Mesh& mesh = scene.mesh();
+    if (mesh.shapes[flat] != CellShape::tetrahedron || is_collapsed(mesh, flat))
+        return false;
+    for (int face = 0; face < 4; ++face) {
+        const CellId neighbour = adjacency.row(flat)[static_cast<std::size_t>(face)];
+        const bool has_area = spanning_triple(mesh, loop_of(mesh, flat, face)).has_value();
+        if (has_area != (neighbour != flat && scene.orientations().sign[neighbour] != 0))
+            return false;
+    }
+    return true;
+}
+
+// The faces at which flat cells are cut off from their neighbours, from both sides.
+std::vector<CellFace> faces_of_stray_flats(const Scene& scene, const Adjacency& adjacency)
+{
+    const Mesh& mesh = scene.mesh();
+    std::vector<CellFace> faces;
+    for (CellId cell = 0; scene.orientations().flat > 0 && cell < scene.cell_count(); ++cell) {
+        if (scene.orientations().sign[cell] != 0 || adjacency.interior[cell] == 0 ||
+            lies_between_solids(scene, adjacency, cell))
+            continue;
+        for (int face = 0; face < face_count(mesh.shapes[cell]); ++face) {
+            const CellId neighbour = adjacency.row(cell)[static_cast<std::size_t>(face)];
+            if (neighbour == cell)
+                continue;
+            faces.push_back({cell, static_cast<std::uint32_t>(face)});
+            faces.push_back({neighbour, static_cast<std::uint32_t>(matching_face_in(mesh, adjacency, cell, face))});
+        }
+    }
+    return faces;
+}
+
+void separate(Adjacency& adjacency, const std::vector<CellFace>& faces)
+{
+    for (const CellFace& face : faces) {
+        adjacency.neighbour[std::size_t{face.cell} * static_cast<std::size_t>(adjacency.row_length) + face.face] =
+            face.cell;
+        adjacency.interior[face.cell] &= static_cast<std::uint8_t>(~(1u << face.face));
+    }
+}
+
+Adjacency adjacency_of_solids(const Scene& scene)
+{
+    const Mesh& mesh = scene.mesh();
+    Adjacency adjacency =
+        scene.is_tetrahedral()
+            ? adjacency_by(scene, 4,
+                           [&](CellId cell, int face) {
+                               return tetrahedron_face_key(mesh.vertices.data() + mesh.offsets[cell], face);
+                           })
+            : adjacency_by(scene, 6, [&](CellId cell, int face) { return face_key(mesh, cell, face, 3); });
+    adjacency.folded = find_folded(scene, adjacency);
+    const std::vector<CellFace> of_flats = faces_of_stray_flats(scene, adjacency);
+    separate(adjacency, adjacency.folded);
+    separate(adjacency, of_flats);
+    return adjacency;
+}
+
 } // namespace
 
 Adjacency derive_adjacency(const Scene& scene)
 {
-    const Mesh& mesh = scene.mesh();
-    if (scene.is_tetrahedral())
-        return adjacency_by(scene, 4, [&](CellId cell, int face) {
-            return tetrahedron_face_key(mesh.vertices.data() + mesh.offsets[cell], face);
-        });
-    const int least = scene.is_surface() ? 2 : 3;
-    return adjacency_by(scene, scene.is_surface() ? 3 : 6,
-                        [&, least](CellId cell, int face) { return face_key(mesh, cell, face, least); });
+    if (!scene.is_surface())
+        return adjacency_of_solids(scene);
+    return adjacency_by(scene, 3, [&](CellId cell, int face) { return face_key(scene.mesh(), cell, face, 2); });
 }
 
 int matching_face(const Scene& scene, CellId cell, int face)
 {
-    const Mesh& mesh = scene.mesh();
-    const CellId neighbour = scene.adjacency().row(cell)[static_cast<std::size_t>(face)];
-    const FaceLoop loop = face_loop(mesh, cell, face);
-    const auto row = scene.adjacency().row(neighbour);
-    for (int other = 0; other < face_count(mesh.shapes[neighbour]); ++other) {
-        if (row[static_cast<std::size_t>(other)] != cell)
-            continue;
-        const FaceLoop candidate = face_loop(mesh, neighbour, other);
-        const auto in_candidate = [&](PointId v) {
-            return std::find(candidate.begin(), candidate.end(), v) != candidate.end();
-        };
-        if (candidate.count == loop.count && std::all_of(loop.begin(), loop.end(), in_candidate))
-            return other;
-    }
-    throw std::logic_error("adjacency joins cells that share no face");
+    return matching_face_in(scene.mesh(), scene.adjacency(), cell, face);
 }
 
 } // namespace visorder

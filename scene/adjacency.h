@@ -4,12 +4,23 @@
 #include "scene/large_array.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace visorder {
 
 class Scene;
+
+/// A face of a cell: `face` in [0, face_count(shape of cell)).
+struct CellFace {
+    CellId cell;
+    std::uint32_t face;
+
+    friend bool operator==(const CellFace&, const CellFace&) = default;
+    friend auto operator<=>(const CellFace&, const CellFace&) = default;
+};
 
 /// Which cells share a face, in rows of equal length: row i holds, for each face of cell i in the order of
 /// `face_vertices`, the cell on its other side, or i itself where there is none (a boundary face, a face that the shape
@@ -18,10 +29,18 @@ class Scene;
 ///
 /// A cell with fewer than four distinct vertices (a triangle with fewer than three) has no faces: its neighbours on
 /// both sides meet directly.
+///
+/// Two solid cells are neighbours only if they lie on different sides of the face that they share: so the side of the
+/// eye gives every interior face a relation that holds. A flat tetrahedron has neighbours if all its faces with area
+/// are shared with solid cells; then each cell above it occludes each cell below it, or the other way round, and the
+/// relations across its faces say so. Every other flat cell has none, and its neighbours' faces are boundary faces.
 struct Adjacency {
     int row_length;                    ///< 3 (triangles), 4 (tetrahedra) or 6
-    LargeArray<CellId> neighbour;      ///< row_length a cell
-    LargeArray<std::uint8_t> interior; ///< a cell: bit f is set if face f has a neighbour
+    LargeArray<CellId> neighbour;      ///< row_length per cell
+    LargeArray<std::uint8_t> interior; ///< per cell: bit f is set if face f has a neighbour
+    /// Faces that two solid cells on the same side of them share, from both cells, ascending by cell and face: the
+    /// cells overlap there. They join nothing, and are boundary faces.
+    std::vector<CellFace> folded;
 
     std::span<const CellId> row(CellId cell) const
     {

@@ -32,11 +32,13 @@ Boundary derive_boundary(const Scene& scene)
     const Mesh& mesh = scene.mesh();
     const Adjacency& adjacency = scene.adjacency();
     const int least = scene.is_surface() ? 2 : 3;
+    const std::int8_t* const signs = scene.is_surface() ? nullptr : scene.orientations().sign.data();
     Boundary boundary;
     std::vector<Side> sides;
     for (CellId cell = 0; cell < scene.cell_count(); ++cell) {
         const int faces = face_count(mesh.shapes[cell]);
-        if (adjacency.interior[cell] == (1u << faces) - 1 || is_collapsed(mesh, cell))
+        if (adjacency.interior[cell] == (1u << faces) - 1 || is_collapsed(mesh, cell) ||
+            (signs != nullptr && signs[cell] == 0))
             continue;
         for (int face = 0; face < faces; ++face) {
             if ((adjacency.interior[cell] >> face & 1u) != 0)

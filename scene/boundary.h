@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/cell_shape.h"
+#include "scene/adjacency.h"
 
 #include <cstdint>
 #include <vector>
@@ -9,18 +9,11 @@ namespace visorder {
 
 class Scene;
 
-/// A face of a cell: `face` in [0, face_count(shape of cell)).
-struct CellFace {
-    CellId cell;
-    std::uint32_t face;
-
-    friend bool operator==(const CellFace&, const CellFace&) = default;
-};
-
-/// The faces owned by one cell, ascending by cell and face, and how they hang together.
+/// The faces of solid cells (in a surface scene, the edges of triangles) that have no neighbour, ascending by cell and
+/// face, and how they are connected.
 struct Boundary {
     std::vector<CellFace> faces;
-    std::vector<std::uint32_t> component; ///< of each face: faces that share an edge are in one; numbered from 0
+    std::vector<std::uint32_t> component; ///< per face: faces that share an edge are in one component; numbered from 0
     std::uint32_t component_count = 0;
 };
 

@@ -19,13 +19,22 @@ Sign sign_of(double x)
 }
 
 // e - w a, each component rounded once.
-glm::dvec3 from_to(const glm::dvec3& a, const glm::dvec4& eye)
+struct Displacement {
+    glm::dvec3 value;
+    bool relative; // whether each rounding is relative to the component: nothing has underflowed
+};
+
+Displacement from_to(const glm::dvec3& a, const glm::dvec4& eye)
 {
     if (eye.w == 1)
-        return glm::dvec3(eye) - a;
+        return {glm::dvec3(eye) - a, true}; // a difference does not underflow
     if (eye.w == 0)
-        return glm::dvec3(eye);
-    return {std::fma(-eye.w, a.x, eye.x), std::fma(-eye.w, a.y, eye.y), std::fma(-eye.w, a.z, eye.z)};
+        return {glm::dvec3(eye), true};
+    const glm::dvec3 d{std::fma(-eye.w, a.x, eye.x), std::fma(-eye.w, a.y, eye.y), std::fma(-eye.w, a.z, eye.z)};
+    const auto is_normal = [](double component, double of_a, double of_eye) {
+        return std::abs(component) >= std::numeric_limits<double>::min() || (of_a == 0 && of_eye == 0);
+    };
+    return {d, is_normal(d.x, a.x, eye.x) && is_normal(d.y, a.y, eye.y) && is_normal(d.z, a.z, eye.z)};
 }
 
 // The determinant of three vectors whose components carry one rounding each. `certain` is whether its sign is that of
@@ -90,9 +99,10 @@ Sign sign_of_weight(double w)
 
 Sign side_of_plane(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec4& eye)
 {
-    const glm::dvec3 p = b - a, q = c - a, r = from_to(a, eye);
+    const glm::dvec3 p = b - a, q = c - a;
+    const auto [r, relative] = from_to(a, eye);
     const Determinant filtered = determinant(p, q, r);
-    if (filtered.certain)
+    if (filtered.certain && relative)
         return sign_of(filtered.value) * sign_of_weight(eye.w);
     // With an overflowed or fused weight a zero component of r need not be an exact one.
     if ((eye.w == 1 || eye.w == 0) && all_products_zero(p, q, r))

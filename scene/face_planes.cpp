@@ -147,46 +147,23 @@ FacePlanes derive_face_planes(const Scene& scene)
     planes.row_length = scene.adjacency().row_length;
     planes.frame = unit_frame(scene.bounds());
     planes.plane.resize(std::size_t{scene.cell_count()} * 4 * static_cast<std::size_t>(planes.row_length));
-    const Orientations& orientations = scene.orientations();
     oneapi::tbb::parallel_for(Range(0, scene.cell_count(), 4096), [&](const Range& range) {
         for (CellId cell = range.begin(); cell < range.end(); ++cell)
             fill_block(scene, cell, planes);
     });
-    for (const auto& [cell, face] : orientations.folded) {
-        float* block = planes.plane.data() + std::size_t{cell} * 4 * static_cast<std::size_t>(planes.row_length);
-        for (int k = 0; k < 4; ++k)
-            block[k * planes.row_length + static_cast<int>(face)] = 0;
-    }
     return planes;
 }
 
 Sign exact_face_side(const Scene& scene, CellId cell, int face, const glm::dvec4& eye)
 {
-    const Mesh& mesh = scene.mesh();
-    const Orientations& orientations = scene.orientations();
-    const CellId neighbour = scene.adjacency().row(cell)[static_cast<std::size_t>(face)];
+    const auto& sign = scene.orientations().sign;
     const auto as_sign = [](int s) { return static_cast<Sign>(s); };
-    const int orientation = orientations.sign[cell];
-    if (orientation != 0) {
-        const CellFace this_face{cell, static_cast<std::uint32_t>(face)};
-        if (!orientations.folded.empty() && std::binary_search(orientations.folded.begin(), orientations.folded.end(),
-                                                               this_face, [](const CellFace& a, const CellFace& b) {
-                                                                   return std::pair(a.cell, a.face) <
-                                                                          std::pair(b.cell, b.face);
-                                                               }))
-            return Sign::zero;
-        return listed_side(mesh, cell, face, eye) * as_sign(orientation);
-    }
-    if (neighbour == cell) {
-        const bool turned = std::binary_search(orientations.turned_flat.begin(), orientations.turned_flat.end(), cell);
-        const Sign side = listed_side(mesh, cell, face, eye);
-        return turned ? -side : side;
-    }
-    const Sign listed_there = listed_side(mesh, neighbour, matching_face(scene, cell, face), eye);
-    if (orientations.sign[neighbour] != 0)
-        return -(listed_there * as_sign(orientations.sign[neighbour]));
-    return scene.caller_cells()[cell] < scene.caller_cells()[neighbour] ? listed_side(mesh, cell, face, eye)
-                                                                        : -listed_there;
+    if (sign[cell] != 0)
+        return listed_side(scene.mesh(), cell, face, eye) * as_sign(sign[cell]);
+    const CellId neighbour = scene.adjacency().row(cell)[static_cast<std::size_t>(face)];
+    if (neighbour == cell)
+        return Sign::zero;
+    return -(listed_side(scene.mesh(), neighbour, matching_face(scene, cell, face), eye) * as_sign(sign[neighbour]));
 }
 
 void FaceSigns::evaluate(const Scene& scene, const glm::dvec4& eye)

@@ -13,10 +13,10 @@ namespace visorder {
 
 class Scene;
 
-/// The planes of all faces in single precision, one block a cell, for the filter of FaceSigns: block i holds the x of
+/// The planes of all faces in single precision, one block per cell, for the filter of FaceSigns: block i holds the x of
 /// the normals of its faces, then the y, the z, and the offsets, `row_length` of each; normals point outward. Both
 /// cells of a face hold the same numbers with opposite signs. A plane that single precision cannot stand for (of a
-/// needle or a fold, of a flat cell, of a face that the shape does not have) is all zeros: questions about it go to
+/// needle, of a flat cell, of a face that the shape does not have) is all zeros: questions about it go to
 /// `exact_face_side`.
 struct FacePlanes {
     int row_length;
@@ -28,9 +28,8 @@ struct FacePlanes {
 FacePlanes derive_face_planes(const Scene& scene);
 
 /// On which side of the plane of face `face` of `cell` the eye lies: `positive` strictly outside of the cell (an entry
-/// face), `negative` strictly inside (an exit face), `zero` edge-on. Exact. Between a flat and a solid cell the side is
-/// taken from the solid one, between flat ones from the vertex order of the one with the lower number in the caller's
-/// mesh; `zero` where both cells lie on one side (they overlap, and no order of them exists) and for a collapsed face.
+/// face), `negative` strictly inside (an exit face), `zero` edge-on. Exact. A face of a flat cell is seen as the solid
+/// neighbour's on its other side; `zero` where there is none, and for a collapsed face.
 Sign exact_face_side(const Scene& scene, CellId cell, int face, const glm::dvec4& eye);
 
 /// The side of every face of every cell at one eye, decided exactly: a single-precision filter with a proved error

@@ -1,34 +1,26 @@
 #pragma once
 
-#include "scene/boundary.h"
 #include "scene/exact_predicates.h"
 #include "scene/large_array.h"
 #include "scene/mesh.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace visorder {
 
 class Scene;
 
-/// Which way round each cell's vertices stand, decided exactly, and where cells lie on top of each other.
+/// Which way round each cell's vertices stand, decided exactly.
 struct Orientations {
-    /// A cell: 1 if its faces, as listed by `face_vertices`, are counterclockwise from outside; -1 if they are
+    /// Per cell: 1 if its faces, as listed by `face_vertices`, are counterclockwise from outside; -1 if they are
     /// clockwise (an inverted cell: the same solid with its faces turned); 0 if it is flat. All 0 in a surface scene.
     LargeArray<std::int8_t> sign;
     std::size_t flat = 0;     ///< cells without volume (triangles without area)
     std::size_t inverted = 0; ///< cells of sign -1
-
-    /// Interior faces with both their solid cells on one side, from both cells, ascending by cell and face: the cells
-    /// overlap there, and the face carries no relation.
-    std::vector<CellFace> folded;
-    /// Flat cells that are to be read with their vertex order reversed, ascending: the face that such a cell shares
-    /// with its first solid neighbour would otherwise be turned the same way in both.
-    std::vector<CellId> turned_flat;
 };
 
+/// Needs the mesh alone.
 Orientations derive_orientations(const Scene& scene);
 
 /// What Orientations::sign says of one solid cell, from its vertices alone. Exact.

@@ -133,7 +133,7 @@ public:
 
     std::vector<std::pair<CellId, CellId>> run() const
     {
-        if (orientations_.folded.empty() && !overlap_at_boundary())
+        if (adjacency_.folded.empty() && !overlap_at_boundary())
             return {};
         return all_pairs();
     }
@@ -141,22 +141,8 @@ public:
 private:
     bool is_solid(CellId cell) const { return orientations_.sign[cell] != 0; }
 
-    // Across a face that is not folded two solids lie on either side of its plane.
-    bool overlap(CellId a, CellId b) const
-    {
-        const auto row = adjacency_.row(a);
-        for (std::size_t face = 0; face < row.size(); ++face)
-            if (row[face] == b)
-                return is_folded({a, static_cast<std::uint32_t>(face)});
-        return solids_overlap(mesh_, a, b);
-    }
-
-    bool is_folded(const CellFace& face) const
-    {
-        return std::binary_search(
-            orientations_.folded.begin(), orientations_.folded.end(), face,
-            [](const CellFace& a, const CellFace& b) { return std::pair(a.cell, a.face) < std::pair(b.cell, b.face); });
-    }
+    // Neighbours lie on different sides of the face that they share.
+    bool overlap(CellId a, CellId b) const { return !adjacency_.joins(a, b) && solids_overlap(mesh_, a, b); }
 
     // The solid cells with a face on whose other side is no solid one, ascending; and those of them that stand for a
     // piece of the boundary.

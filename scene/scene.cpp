@@ -2,6 +2,7 @@
 
 #include "scene/numbering.h"
 #include "scene/overlapping_cells.h"
+#include "scene/relation_faces.h"
 #include "scene/stopwatch.h"
 
 #include <algorithm>
@@ -21,11 +22,11 @@ std::size_t size_of(const Array& array)
 
 std::size_t bytes(const Orientations& x)
 {
-    return size_of(x.sign) + size_of(x.folded) + size_of(x.turned_flat);
+    return size_of(x.sign);
 }
 std::size_t bytes(const Adjacency& x)
 {
-    return size_of(x.neighbour) + size_of(x.interior);
+    return size_of(x.neighbour) + size_of(x.interior) + size_of(x.folded);
 }
 std::size_t bytes(const Boundary& x)
 {
@@ -44,6 +45,14 @@ std::size_t bytes(const Circumspheres& x)
     return size_of(x.centre) + size_of(x.constant);
 }
 std::size_t bytes(const std::vector<std::pair<CellId, CellId>>& x)
+{
+    return size_of(x);
+}
+std::size_t bytes(const std::vector<OverlapPlane>& x)
+{
+    return size_of(x);
+}
+std::size_t bytes(const std::vector<CellFace>& x)
 {
     return size_of(x);
 }
@@ -98,13 +107,13 @@ Scene::Scene(Mesh mesh) : mesh_(std::move(mesh))
 
 const Adjacency& Scene::adjacency() const
 {
+    if (!is_surface())
+        orientations();
     return derive(adjacency_, Structure::adjacency, [&] { return derive_adjacency(*this); });
 }
 
 const Orientations& Scene::orientations() const
 {
-    if (!is_surface())
-        adjacency();
     return derive(orientations_, Structure::orientations, [&] { return derive_orientations(*this); });
 }
 
@@ -116,7 +125,7 @@ const Boundary& Scene::boundary() const
 
 const FacePlanes& Scene::face_planes() const
 {
-    orientations();
+    adjacency();
     return derive(face_planes_, Structure::face_planes, [&] { return derive_face_planes(*this); });
 }
 
@@ -140,9 +149,20 @@ const Traits& Scene::traits() const
 
 const std::vector<std::pair<CellId, CellId>>& Scene::overlapping_cells() const
 {
-    orientations();
     boundary();
     return derive(overlapping_cells_, Structure::overlapping_cells, [&] { return derive_overlapping_cells(*this); });
+}
+
+const std::vector<OverlapPlane>& Scene::overlap_planes() const
+{
+    overlapping_cells();
+    return derive(overlap_planes_, Structure::overlap_planes, [&] { return derive_overlap_planes(*this); });
+}
+
+const std::vector<CellFace>& Scene::relation_faces() const
+{
+    overlapping_cells();
+    return derive(relation_faces_, Structure::relation_faces, [&] { return derive_relation_faces(*this); });
 }
 
 std::vector<StructureRecord> Scene::derived() const

@@ -8,6 +8,7 @@
 #include "scene/large_array.h"
 #include "scene/mesh.h"
 #include "scene/orientations.h"
+#include "scene/overlap_planes.h"
 #include "scene/structure.h"
 #include "scene/traits.h"
 
@@ -59,6 +60,11 @@ public:
     /// Pairs of cells whose interiors have a point in common: no order of them exists. See overlapping_cells.h.
     const std::vector<std::pair<CellId, CellId>>& overlapping_cells() const;
 
+    /// What nearly separates each of these pairs. See overlap_planes.h.
+    const std::vector<OverlapPlane>& overlap_planes() const;
+    /// Of a scene of solids: where relations are sought that interior faces do not carry. See relation_faces.h.
+    const std::vector<CellFace>& relation_faces() const;
+
     /// What has been derived so far, in the order in which it was.
     std::vector<StructureRecord> derived() const;
 
@@ -80,6 +86,8 @@ private:
     Derived<Circumspheres> circumspheres_;
     Derived<Traits> traits_;
     Derived<std::vector<std::pair<CellId, CellId>>> overlapping_cells_;
+    Derived<std::vector<OverlapPlane>> overlap_planes_;
+    Derived<std::vector<CellFace>> relation_faces_;
 
     mutable std::mutex records_mutex_;
     mutable std::vector<StructureRecord> records_;

@@ -23,6 +23,10 @@ const char* name(Structure structure)
         return "traits";
     case Structure::overlapping_cells:
         return "overlaps";
+    case Structure::overlap_planes:
+        return "overlap planes";
+    case Structure::relation_faces:
+        return "relation faces";
     }
     return "";
 }

@@ -18,7 +18,9 @@ enum class Structure {
     centroids,
     circumspheres,
     traits,
-    overlapping_cells
+    overlapping_cells,
+    overlap_planes,
+    relation_faces
 };
 
 const char* name(Structure structure);

@@ -57,7 +57,7 @@ class ConvexityTest {
 public:
     explicit ConvexityTest(const Scene& scene) : scene_(scene), points_(scene.mesh().points)
     {
-        const Orientations& orientations = scene.orientations();
+        const auto& sign = scene.orientations().sign;
         for (const auto& [cell, face] : scene.boundary().faces) {
             const FaceLoop loop = face_loop(scene.mesh(), cell, static_cast<int>(face));
             auto triple = spanning_triple(scene.mesh(), loop);
@@ -65,21 +65,20 @@ public:
                 all_have_planes_ = false;
                 continue;
             }
-            const bool turned =
-                std::binary_search(orientations.turned_flat.begin(), orientations.turned_flat.end(), cell);
-            if (orientations.sign[cell] < 0 || turned)
+            if (sign[cell] < 0)
                 std::swap(triple->b, triple->c);
             faces_.push_back({loop, *triple});
         }
     }
 
-    // A closed surface that is connected and convex at every edge bounds a convex body (van Heijenoort 1952). Where
-    // faces without a plane hide an edge from that test, every vertex is held against every face.
+    // A closed surface that is connected and convex at every edge bounds a convex body (van Heijenoort 1952), if it
+    // does not wind around a vertex more than once; then cells overlap there. Where faces without a plane hide an edge
+    // from that test, every vertex is held against every face.
     bool holds() const
     {
-        if (!scene_.orientations().folded.empty() || scene_.boundary().component_count != 1)
+        if (!scene_.adjacency().folded.empty() || scene_.boundary().component_count != 1)
             return false;
-        return all_have_planes_ ? convex_at_every_edge() : behind_every_face();
+        return (all_have_planes_ ? convex_at_every_edge() : behind_every_face()) && scene_.overlapping_cells().empty();
     }
 
 private:
@@ -159,7 +158,7 @@ private:
 // Cells that touch elsewhere than in whole faces have boundary faces in one plane with area in common.
 bool meets_face_to_face(const Scene& scene)
 {
-    if (!scene.orientations().folded.empty())
+    if (!scene.adjacency().folded.empty())
         return false;
     const Mesh& mesh = scene.mesh();
     const auto& faces = scene.boundary().faces;
@@ -221,7 +220,7 @@ public:
     bool holds(bool convex) const
     {
         const Orientations& orientations = scene_.orientations();
-        if (!scene_.is_tetrahedral() || orientations.flat != 0 || !orientations.folded.empty())
+        if (!scene_.is_tetrahedral() || orientations.flat != 0 || !scene_.adjacency().folded.empty())
             return false;
         if (!all_of_range(scene_.cell_count(),
                           [&](std::size_t cell) { return across_faces(static_cast<CellId>(cell)); }))
@@ -296,7 +295,7 @@ Traits derive_traits(const Scene& scene)
     if (scene.is_surface())
         return traits;
     traits.inverted_cells = orientations.inverted;
-    traits.folded_faces = orientations.folded.size() / 2;
+    traits.folded_faces = scene.adjacency().folded.size() / 2;
     traits.planar_faces = has_planar_faces(scene);
     traits.face_to_face = traits.planar_faces && meets_face_to_face(scene);
     traits.convex = traits.planar_faces && ConvexityTest(scene).holds();

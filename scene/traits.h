@@ -15,7 +15,7 @@ struct Traits {
     bool planar_faces;      ///< the vertices of every face lie in one plane
     std::size_t flat_cells; ///< cells without volume
     std::size_t inverted_cells; ///< cells whose vertices stand in the reverse of VTK's order
-    std::size_t folded_faces;   ///< interior faces with both their cells on one side, which overlap there
+    std::size_t folded_faces;   ///< faces that two cells on the same side of them share, which overlap there
 };
 
 Traits derive_traits(const Scene& scene);

@@ -35,23 +35,32 @@ UnitFrame unit_frame(const Box& bounds)
 }
 
 // A positive scale changes no side of a face; a negative weight turns all of them, as the eye's position is then that
-// of
-// (-p, -w).
+// of (-p, -w). What a scale would take out of the range of doubles is left to the exact predicate.
 glm::dvec4 unit_eye(const UnitFrame& frame, const glm::dvec4& eye)
 {
+    constexpr glm::dvec4 unknown(0);
     glm::dvec3 e(eye);
-    if (eye.w == 1)
+    double w = eye.w;
+    if (w != 0 && w != 1) {
+        // With a weight in [1, 2) the product with the origin does not underflow.
+        const int exponent = -std::ilogb(w);
+        for (glm::length_t i = 0; i < 3; ++i)
+            e[i] = std::ldexp(eye[i], exponent);
+        w = std::ldexp(w, exponent);
+        for (glm::length_t i = 0; i < 3; ++i)
+            if (std::ldexp(e[i], -exponent) != eye[i])
+                return unknown;
+        e = {std::fma(-w, frame.origin.x, e.x), std::fma(-w, frame.origin.y, e.y), std::fma(-w, frame.origin.z, e.z)};
+    } else if (w == 1) {
         e -= frame.origin;
-    else if (eye.w != 0)
-        e = {std::fma(-eye.w, frame.origin.x, e.x), std::fma(-eye.w, frame.origin.y, e.y),
-             std::fma(-eye.w, frame.origin.z, e.z)};
+    }
     e *= frame.scale;
-    const double largest = std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z), std::abs(eye.w)});
-    // A direction so short that scaling rounds it to nothing is left to the exact predicate.
-    if (largest == 0)
-        return glm::dvec4(0);
-    const double scale = std::ldexp(eye.w < 0 ? -1.0 : 1.0, -std::ilogb(largest));
-    return {e * scale, eye.w * scale};
+    const double largest = std::max({std::abs(e.x), std::abs(e.y), std::abs(e.z), std::abs(w)});
+    // So short a direction, or so long a way, that scaling rounds it.
+    if (!(largest >= std::numeric_limits<double>::min() && largest <= std::numeric_limits<double>::max()))
+        return unknown;
+    const double scale = std::ldexp(w < 0 ? -1.0 : 1.0, -std::ilogb(largest));
+    return {e * scale, w * scale};
 }
 
 UnitPlane unit_plane(const UnitFrame& frame, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)

@@ -19,7 +19,7 @@ struct UnitFrame {
 UnitFrame unit_frame(const Box& bounds);
 
 /// The eye in unit coordinates, rounded, and scaled: its weight is not negative, and its largest component is near 1.
-/// All zeros for a direction too short for that.
+/// All zeros for an eye that doubles cannot hold so: then nothing is known.
 glm::dvec4 unit_eye(const UnitFrame& frame, const glm::dvec4& eye);
 
 /// A plane in unit coordinates, positive on the side that sees the points that it was made from counterclockwise. All

@@ -41,7 +41,7 @@ void in_parallel(std::size_t count, std::size_t grain, const Body& body)
 
 ExitsAndEntries boundary_of_solids(const Scene& scene, const glm::dvec4& eye)
 {
-    const std::vector<CellFace>& faces = scene.boundary().faces;
+    const std::vector<CellFace>& faces = scene.relation_faces();
     std::vector<Sign> sides(faces.size());
     in_parallel(faces.size(), 1024, [&](std::size_t i) {
         sides[i] = exact_face_side(scene, faces[i].cell, static_cast<int>(faces[i].face), eye);

@@ -16,6 +16,9 @@ constexpr double huge = 1e300;
 // Below this, roundings of products might be above u times them.
 constexpr double tiny = 1e-280;
 
+// More than the roundings of some products that underflow add up to.
+constexpr double underflow = 0x1p-1068;
+
 constexpr double whole_range = std::numeric_limits<double>::max();
 
 struct Polygon {
@@ -87,7 +90,7 @@ void ProjectionCharts::set_direction(const glm::dvec3& towards, const Box& bound
     // Let two points of the scene lie on one ray, up to 2 radius apart. With axes off the true direction by at most
     // 12 u, the points' images are at most 24 u radius apart; each is computed to within 6 u radius (a rounded
     // difference and a sum of three products). 1e-14 is 90 u.
-    image_error_ = glm::dvec3(1e-14 * radius);
+    image_error_ = glm::dvec3(1e-14 * radius + underflow);
 }
 
 void ProjectionCharts::set_position(const glm::dvec4& eye, const Box& bounds)
@@ -140,7 +143,8 @@ void ProjectionCharts::set_sides(const Box& bounds)
     const glm::dvec3 least = bounds.min - origin_, most = bounds.max - origin_;
     const glm::dvec3 reach = glm::max(glm::abs(least), glm::abs(most));
     const double wider = 0x1p-20 * std::max({reach.x, reach.y, reach.z}) + 8 * margin_;
-    const bool measurable = reach.x < huge && reach.y < huge && reach.z < huge;
+    const double farthest = std::max({reach.x, reach.y, reach.z});
+    const bool measurable = reach.x < huge && reach.y < huge && reach.z < huge && farthest > tiny;
     count_ = 0;
     for (int side = 0; side < 6; ++side) {
         const glm::length_t axis = side / 2;
@@ -167,7 +171,8 @@ std::optional<Box> ProjectionCharts::box_in_side(std::span<const glm::dvec3> fac
                                                                      towards * d[axis]};
         size = std::max({size, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
     }
-    if (!(size < huge))
+    // Written so that what is not a number is everywhere.
+    if (!(size > tiny && size < huge && std::isfinite(origin_.x + origin_.y + origin_.z)))
         return Box{{-1, -1, 0}, {1, 1, whole_range}};
 
     // The side is taken a little wider than it is, by far more than the roundings of the corners (u size, and that

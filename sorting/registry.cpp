@@ -40,8 +40,9 @@ constexpr std::array for_mpvo{Structure::numbering, Structure::adjacency, Struct
                               Structure::face_planes};
 constexpr std::array for_boundary_and_planes{Structure::numbering, Structure::adjacency, Structure::orientations,
                                              Structure::face_planes, Structure::boundary};
-constexpr std::array for_boundary_relations{Structure::numbering, Structure::adjacency,   Structure::orientations,
-                                            Structure::boundary,  Structure::face_planes, Structure::overlapping_cells};
+constexpr std::array for_boundary_relations{
+    Structure::numbering,   Structure::adjacency,         Structure::orientations,   Structure::boundary,
+    Structure::face_planes, Structure::overlapping_cells, Structure::overlap_planes, Structure::relation_faces};
 constexpr std::array for_layers{Structure::numbering};
 constexpr std::array for_auto{Structure::numbering, Structure::adjacency, Structure::orientations, Structure::boundary,
                               Structure::traits};
@@ -73,9 +74,11 @@ constexpr std::array infos
                    "Silva, Mitchell, Williams 1998", "on convex meshes", for_boundary_and_planes},
         SorterInfo{"xmpvo-exact",
                    "topological sort, also over every pair of boundary faces of which one covers the other",
-                   "Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000", "always", for_boundary_relations},
+                   "Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000",
+                   "always, but for pairs of cells that overlap", for_boundary_relations},
         SorterInfo{"bsp-xmpvo", "topological sort merged with the walk of a BSP tree over the boundary faces",
-                   "Comba et al. 1999; Max, Williams, Silva 2000", "always", for_boundary_relations},
+                   "Comba et al. 1999; Max, Williams, Silva 2000", "always, but for pairs of cells that overlap",
+                   for_boundary_relations},
         SorterInfo{"xmpvo-layered", "mpvo, and relations between boundary cells by the layers of an image of them",
                    "Krishnan, Silva, Wei 2002", "on convex meshes", for_boundary_and_planes},
         SorterInfo{"layers",
@@ -142,6 +145,8 @@ AutoChoice choose_sorter(const Scene& scene)
         return {"centroid", "faces that are not planar: no sorter here is exact for them; subdivide into tetrahedra"};
     if (traits.convex)
         return {"mpvo", "the mesh is convex: relations across interior faces are all there are"};
+    if (const std::size_t pairs = scene.overlapping_cells().size(); pairs > 0)
+        return {"bsp-xmpvo", fmt::format("cells overlap: {}", describe(Guarantee::exact_but_for_overlaps, pairs))};
     return {"bsp-xmpvo", "the mesh is not convex: rays may leave it and come back"};
 }
 

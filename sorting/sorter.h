@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace visorder {
@@ -17,10 +18,22 @@ struct Order {
     std::vector<std::vector<CellId>> cycles; ///< sets that no order can satisfy, each and all of them ascending
 };
 
-/// What a sorter promises on the scene it was made for. `exact`: right outside `Order::cycles`, for every eye.
-enum class Guarantee { exact, approximate };
+/// What a sorter promises on the scene it was made for.
+enum class Guarantee {
+    exact,                  ///< no violated relation outside of `Order::cycles`, for every eye
+    exact_but_for_overlaps, ///< likewise, among the pairs of cells that do not overlap in space; others have no order
+    approximate             ///< nothing
+};
 
+/// "exact", "exact but" or "approximate".
 const char* name(Guarantee guarantee);
+
+/// The same in words, with what is left out: "exact but for 3 overlapping pairs" on a scene that has as many.
+std::string describe(Guarantee guarantee, std::size_t overlapping_pairs);
+std::string describe(Guarantee guarantee, const Scene& scene);
+
+/// What a sorter promises on this scene that is right on every scene without overlapping cells.
+Guarantee exact_up_to_overlaps(const Scene& scene);
 
 /// A count or a time that tells what a sorter did.
 struct Statistic {

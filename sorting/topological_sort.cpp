@@ -1,7 +1,7 @@
 #include "sorting/topological_sort.h"
 
 #include "scene/concurrency.h"
-#include "sorting/strongly_connected.h"
+#include "sorting/cyclic_order.h"
 #include "sorting/team.h"
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include <numeric>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <set>
 #include <utility>
 
 namespace visorder {
@@ -278,76 +277,49 @@ void count_relations(const Adjacency& adjacency, const FaceSigns& signs, State* 
     });
 }
 
-// The cells that are left when no more are ready: those in cycles and behind them. Gives them levels from
-// `first_level` on and reports the cycles.
+// The cells that are left when no more are ready: those in cycles and behind them. Gives them levels after the others'
+// and reports the cycles.
 template <int row, class State>
 void list_cycles(const Frame<row, State>& frame, std::span<const CellId> caller_cells,
-                 std::vector<std::uint32_t>& level_counts, std::vector<std::vector<CellId>>& cycles)
+                 std::span<const Relation> tentative, std::vector<std::uint32_t>& level_counts,
+                 std::vector<std::vector<CellId>>& cycles)
 {
-    const auto first_level = static_cast<std::uint32_t>(level_counts.size());
     std::vector<CellId> left;
     for (CellId cell = 0; cell < frame.cells; ++cell)
         if (!Frame<row, State>::ready(frame.state[cell]))
             left.push_back(cell);
-    const auto n = static_cast<std::uint32_t>(left.size());
-    const auto local = [&](CellId cell) {
-        return static_cast<std::uint32_t>(std::lower_bound(left.begin(), left.end(), cell) - left.begin());
+    std::vector<Relation> given_up_first(tentative.begin(), tentative.end());
+    std::sort(given_up_first.begin(), given_up_first.end());
+
+    std::vector<Precedence> edges;
+    const auto add = [&](std::uint32_t back, CellId front) {
+        const auto at = std::lower_bound(left.begin(), left.end(), front) - left.begin();
+        edges.push_back(
+            {back, static_cast<std::uint32_t>(at),
+             std::binary_search(given_up_first.begin(), given_up_first.end(), Relation{front, left[back]})});
     };
-    std::vector<std::uint32_t> from, to;
-    for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t i = 0; i < left.size(); ++i) {
         const CellId cell = left[i];
         for (int f = 0; f < row; ++f)
-            if ((frame.state[cell] >> f & 1u) != 0) {
-                from.push_back(i);
-                to.push_back(local(frame.neighbour[std::size_t{cell} * row + static_cast<std::size_t>(f)]));
-            }
+            if ((frame.state[cell] >> f & 1u) != 0)
+                add(i, frame.neighbour[std::size_t{cell} * row + static_cast<std::size_t>(f)]);
         if (frame.more_begin != nullptr)
-            for (std::uint32_t k = frame.more_begin[cell]; k < frame.more_begin[cell + 1]; ++k) {
-                from.push_back(i);
-                to.push_back(local(frame.more_front[k]));
-            }
+            for (std::uint32_t k = frame.more_begin[cell]; k < frame.more_begin[cell + 1]; ++k)
+                add(i, frame.more_front[k]);
     }
-    const Graph graph = graph_of(n, from, to);
-    const Components components = strongly_connected_components(graph);
 
-    std::vector<std::vector<std::uint32_t>> members(components.count);
-    for (std::uint32_t i = 0; i < n; ++i)
-        members[components.of_node[i]].push_back(i);
-    // A component takes as many levels as it has cells, after all levels of those it must wait for.
-    std::vector<std::uint32_t> start(components.count, first_level);
-    std::vector<std::uint32_t> unsatisfied(n, 0);
-    for (std::uint32_t c = components.count; c-- > 0;) {
-        const auto end = start[c] + static_cast<std::uint32_t>(members[c].size());
-        level_counts.resize(std::max<std::size_t>(level_counts.size(), end), 0);
-        for (std::uint32_t i : members[c])
-            for (std::uint32_t j : graph.of(i)) {
-                if (components.of_node[j] == c)
-                    ++unsatisfied[j];
-                else
-                    start[components.of_node[j]] = std::max(start[components.of_node[j]], end);
-            }
-        std::set<std::pair<std::uint32_t, std::uint32_t>> fewest_first;
-        for (std::uint32_t i : members[c])
-            fewest_first.emplace(unsatisfied[i], i);
-        for (std::uint32_t level = start[c]; !fewest_first.empty(); ++level) {
-            const std::uint32_t i = fewest_first.begin()->second;
-            fewest_first.erase(fewest_first.begin());
-            frame.level[left[i]] = level;
-            ++level_counts[level];
-            for (std::uint32_t j : graph.of(i)) {
-                const auto at = fewest_first.find({unsatisfied[j], j});
-                if (components.of_node[j] != c || at == fewest_first.end())
-                    continue;
-                fewest_first.erase(at);
-                fewest_first.emplace(--unsatisfied[j], j);
-            }
-        }
-        if (members[c].size() > 1) {
-            std::vector<CellId>& cycle = cycles.emplace_back();
-            for (std::uint32_t i : members[c])
-                cycle.push_back(caller_cells[left[i]]);
-            std::sort(cycle.begin(), cycle.end());
-        }
+    const CyclicOrder ordered = order_with_cycles(static_cast<std::uint32_t>(left.size()), edges);
+    const auto first_level = static_cast<std::uint32_t>(level_counts.size());
+    level_counts.resize(first_level + ordered.level_count, 0);
+    for (std::uint32_t i = 0; i < left.size(); ++i) {
+        frame.level[left[i]] = first_level + ordered.level[i];
+        ++level_counts[first_level + ordered.level[i]];
+    }
+    for (const std::vector<std::uint32_t>& nodes : ordered.cycles) {
+        std::vector<CellId>& cycle = cycles.emplace_back();
+        for (const std::uint32_t i : nodes)
+            cycle.push_back(caller_cells[left[i]]);
+        std::sort(cycle.begin(), cycle.end());
     }
     std::sort(cycles.begin(), cycles.end());
 }
@@ -386,23 +358,26 @@ void write_order(std::span<const std::uint32_t> level, std::span<const CellId> c
     });
 }
 
-void group_by_back(std::span<const Relation> relations, CellId cells, std::vector<std::uint32_t>& begin,
-                   std::vector<CellId>& fronts)
+void group_by_back(std::span<const Relation> more, std::span<const Relation> tentative, CellId cells,
+                   std::vector<std::uint32_t>& begin, std::vector<CellId>& fronts)
 {
     begin.assign(std::size_t{cells} + 1, 0);
-    fronts.resize(relations.size());
-    for (const Relation& r : relations)
-        ++begin[r.back];
+    fronts.resize(more.size() + tentative.size());
+    for (const auto& relations : {more, tentative})
+        for (const Relation& r : relations)
+            ++begin[r.back];
     std::uint32_t end = 0;
     for (std::uint32_t& count : begin)
         count = end += count;
-    for (std::size_t i = relations.size(); i-- > 0;)
-        fronts[--begin[relations[i].back]] = relations[i].front;
+    for (const auto& relations : {tentative, more})
+        for (std::size_t i = relations.size(); i-- > 0;)
+            fronts[--begin[relations[i].back]] = relations[i].front;
 }
 
 template <int row, class State>
-void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_cells, std::vector<Front>& fronts,
-               std::vector<std::uint32_t>& cursors, Order& order)
+void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_cells,
+               std::span<const Relation> tentative, std::vector<Front>& fronts, std::vector<std::uint32_t>& cursors,
+               Order& order)
 {
     const auto threads = concurrency();
     if (threads == 1 || frame.cells < worth_a_team) {
@@ -436,7 +411,7 @@ void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_ce
         level_counts.pop_back();
     order.cycles.clear();
     if (listed < frame.cells)
-        list_cycles(frame, caller_cells, level_counts, order.cycles);
+        list_cycles(frame, caller_cells, tentative, level_counts, order.cycles);
     order.layer_begin.resize(level_counts.size());
     std::exclusive_scan(level_counts.begin(), level_counts.end(), order.layer_begin.begin(), 0u);
     resize_on_large_pages(order.back_to_front, frame.cells);
@@ -447,7 +422,7 @@ void run_frame(const Frame<row, State>& frame, std::span<const CellId> caller_ce
 
 template <int row, class State>
 void TopologicalSort::run_over(const Scene& scene, const FaceSigns* signs, std::span<const Relation> more,
-                               LargeArray<State>& state, Order& order)
+                               std::span<const Relation> tentative, LargeArray<State>& state, Order& order)
 {
     const CellId cells = scene.cell_count();
     level_.resize(cells);
@@ -459,29 +434,31 @@ void TopologicalSort::run_over(const Scene& scene, const FaceSigns* signs, std::
     } else {
         std::fill(state.begin(), state.end(), State{0});
     }
-    if (!more.empty()) {
-        group_by_back(more, cells, more_begin_, more_front_);
+    if (!more.empty() || !tentative.empty()) {
+        group_by_back(more, tentative, cells, more_begin_, more_front_);
         frame.more_begin = more_begin_.data();
         frame.more_front = more_front_.data();
-        for (const Relation& r : more)
-            state[r.front] = static_cast<State>(state[r.front] + Frame<row, State>::one);
+        for (const auto& relations : {more, tentative})
+            for (const Relation& r : relations)
+                state[r.front] = static_cast<State>(state[r.front] + Frame<row, State>::one);
     }
-    run_frame(frame, scene.caller_cells(), fronts_, cursors_, order);
+    run_frame(frame, scene.caller_cells(), tentative, fronts_, cursors_, order);
 }
 
-void TopologicalSort::run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order)
+void TopologicalSort::run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more,
+                          std::span<const Relation> tentative, Order& order)
 {
-    if (scene.adjacency().row_length == 4 && more.empty())
-        run_over<4>(scene, &signs, more, small_state_, order);
+    if (scene.adjacency().row_length == 4 && more.empty() && tentative.empty())
+        run_over<4>(scene, &signs, more, tentative, small_state_, order);
     else if (scene.adjacency().row_length == 4)
-        run_over<4>(scene, &signs, more, large_state_, order);
+        run_over<4>(scene, &signs, more, tentative, large_state_, order);
     else
-        run_over<6>(scene, &signs, more, large_state_, order);
+        run_over<6>(scene, &signs, more, tentative, large_state_, order);
 }
 
 void TopologicalSort::run(const Scene& scene, std::span<const Relation> relations, Order& order)
 {
-    run_over<0>(scene, nullptr, relations, large_state_, order);
+    run_over<0>(scene, nullptr, relations, {}, large_state_, order);
 }
 
 std::size_t TopologicalSort::bytes() const

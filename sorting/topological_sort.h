@@ -13,7 +13,7 @@
 namespace visorder {
 
 /// The topological sort that all sorters over relations share (Max, Williams, Silva 2000, section III; Kahn 1962):
-/// first the cells that obstruct nothing, then level by level those that obstruct only cells already listed. Within a
+/// first the cells that occlude nothing, then level by level those that occlude only cells already listed. Within a
 /// level cells stand in the Scene's inner order, so the Order is the same for any number of threads. Linear in cells
 /// and relations.
 ///
@@ -26,7 +26,15 @@ class TopologicalSort {
 public:
     /// Orders the cells of `scene` by the relations across its interior faces, as `signs` has them for an eye, and by
     /// `more` of them.
-    void run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order);
+    void run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more, Order& order)
+    {
+        run(scene, signs, more, {}, order);
+    }
+
+    /// Likewise, and by `tentative` relations (see tentative_relations.h) as far as they contradict neither these nor
+    /// each other.
+    void run(const Scene& scene, const FaceSigns& signs, std::span<const Relation> more,
+             std::span<const Relation> tentative, Order& order);
 
     /// The same by `relations` alone, such as those of a surface, whose triangles' common edges say nothing.
     void run(const Scene& scene, std::span<const Relation> relations, Order& order);
@@ -43,8 +51,8 @@ public:
 
 private:
     template <int row, class State>
-    void run_over(const Scene& scene, const FaceSigns* signs, std::span<const Relation> more, LargeArray<State>& state,
-                  Order& order);
+    void run_over(const Scene& scene, const FaceSigns* signs, std::span<const Relation> more,
+                  std::span<const Relation> tentative, LargeArray<State>& state, Order& order);
 
     LargeArray<std::uint8_t> small_state_;  // a tetrahedron without more relations
     LargeArray<std::uint32_t> large_state_; // any other cell

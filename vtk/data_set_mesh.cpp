@@ -1,8 +1,8 @@
 #include "vtk/data_set_mesh.h"
 
+#include "files/polygon.h"
 #include "scene/error.h"
 #include "vtk/cell_kind.h"
-#include "vtk/polygon.h"
 #include "vtk/scalar_array.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vtk/read_mesh.h"
+#include "files/mesh_file.h"
 #include "vtk/vtk_file.h"
 
 namespace visorder {

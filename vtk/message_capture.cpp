@@ -1,7 +1,7 @@
 #include "vtk/message_capture.h"
 
+#include "files/printable.h"
 #include "scene/error.h"
-#include "vtk/printable.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -196,8 +196,8 @@ void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, co
     });
 }
 
-Silhouette visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
-                           const VisitTargets& visit)
+SilhouetteCounts visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
+                                 const VisitTargets& visit)
 {
     std::vector<std::uint32_t> edges;
     for (std::uint32_t i = 0; i < surface.edges.size(); ++i)

@@ -42,7 +42,7 @@ using VisitTargets = std::function<void(std::span<const glm::dvec3> targets)>;
 void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, const VisitTargets& visit);
 
 /// How much there was to visit.
-struct Silhouette {
+struct SilhouetteCounts {
     std::size_t edges = 0;     ///< between faces on different sides of which the eye lies
     std::size_t crossings = 0; ///< of two of them in projection
 };
@@ -51,7 +51,7 @@ struct Silhouette {
 /// where one part of the boundary begins to cover another (Silva, Mitchell, Williams 1998, whose sweep stops at the
 /// same crossings). Takes time by the number of crossings and of boxes around edges that meet. Rounded; a crossing at
 /// an edge's end may be visited or not.
-Silhouette visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
-                           const VisitTargets& visit);
+SilhouetteCounts visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
+                                 const VisitTargets& visit);
 
 } // namespace visorder

@@ -59,7 +59,8 @@ void Xmpvo::shoot(const glm::dvec4& eye)
         }
     };
     visit_faces(surface_, sides_, shoot_through);
-    silhouette_ = rays_ == XmpvoRays::crossings ? visit_crossings(surface_, sides_, eye, shoot_through) : Silhouette{};
+    silhouette_ =
+        rays_ == XmpvoRays::crossings ? visit_crossings(surface_, sides_, eye, shoot_through) : SilhouetteCounts{};
 
     pairs_.clear();
     ray_count_ = hit_count_ = 0;

@@ -50,7 +50,7 @@ private:
     std::vector<std::uint64_t> pairs_; // of boundary faces, exit << 32 | entry
     std::vector<Relation> relations_;
     TopologicalSort topological_sort_;
-    Silhouette silhouette_;
+    SilhouetteCounts silhouette_;
     std::size_t ray_count_ = 0;
     std::size_t hit_count_ = 0;
 };

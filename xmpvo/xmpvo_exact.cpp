@@ -1,16 +1,17 @@
 #include "xmpvo/xmpvo_exact.h"
 
 #include "sorting/registry.h"
+#include "sorting/tentative_relations.h"
 
 namespace visorder {
 
 XmpvoExact::XmpvoExact(const Scene& scene) : scene_(scene)
 {
-    if (!scene.is_surface()) {
-        scene.face_planes();
-        scene.boundary();
-    }
-    scene.overlapping_cells();
+    if (scene.is_surface())
+        return;
+    scene.face_planes();
+    scene.relation_faces();
+    scene.overlap_planes();
 }
 
 void XmpvoExact::sort(const View& view, Order& order)
@@ -22,13 +23,15 @@ void XmpvoExact::sort(const View& view, Order& order)
         return;
     }
     signs_.evaluate(scene_, view.eye);
-    topological_sort_.run(scene_, signs_, boundary_.relations, order);
+    tentative_relations(scene_, view.eye, tentative_);
+    topological_sort_.run(scene_, signs_, boundary_.relations, tentative_, order);
 }
 
 std::size_t XmpvoExact::bytes() const
 {
     return signs_.bytes() + topological_sort_.bytes() + boundary_.relations.capacity() * sizeof(Relation) +
-           boundary_.overlapping.capacity() * sizeof(boundary_.overlapping[0]);
+           boundary_.overlapping.capacity() * sizeof(boundary_.overlapping[0]) +
+           tentative_.capacity() * sizeof(Relation);
 }
 
 std::vector<Statistic> XmpvoExact::statistics() const

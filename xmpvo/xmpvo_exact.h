@@ -19,7 +19,7 @@ public:
     /// Throws InputError, naming the cell, where a face is not planar.
     explicit XmpvoExact(const Scene& scene);
 
-    Guarantee guarantee() const override { return Guarantee::exact; }
+    Guarantee guarantee() const override { return exact_up_to_overlaps(scene_); }
     void sort(const View& view, Order& order) override;
     std::size_t bytes() const override;
     /// "candidate pairs" put to the exact test, and the "relations" found.
@@ -29,6 +29,7 @@ private:
     const Scene& scene_;
     FaceSigns signs_;
     BoundaryRelations boundary_;
+    std::vector<Relation> tentative_;
     TopologicalSort topological_sort_;
 };
 

@@ -1,12 +1,14 @@
 #include "apps/order_file.h"
 
 #include "scene/error.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace apps;
 namespace {
 
 void write(const std::filesystem::path& file, const std::string& text)
@@ -81,4 +83,4 @@ TEST(OrderFile, SaysWhatIsWrongWithAFile)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -1,35 +1,16 @@
-#include "temporary_folder.h"
+#include "tests/apps/run_tool.h"
+#include "tests/temporary_folder.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
-
-struct Outcome {
-    int code;
-    std::string output; // standard output and error
-};
-
-Outcome run(const std::string& arguments)
-{
-    const std::string command = std::string(VISORDER_TOOL) + " " + arguments + " 2>&1 </dev/null";
-    FILE* pipe = popen(command.c_str(), "r");
-    Outcome outcome{-1, {}};
-    std::array<char, 4096> buffer;
-    for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        outcome.output.append(buffer.data(), n);
-    outcome.code = WEXITSTATUS(pclose(pipe));
-    return outcome;
-}
 
 std::string read(const std::filesystem::path& file)
 {
@@ -37,14 +18,6 @@ std::string read(const std::filesystem::path& file)
     std::stringstream text;
     text << in.rdbuf();
     return text.str();
-}
-
-void expect_one_line_and_code_2(const std::string& arguments, const std::string& part)
-{
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.code, 2) << arguments << "\n" << outcome.output;
-    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << arguments << "\n" << outcome.output;
-    EXPECT_NE(outcome.output.find(part), std::string::npos) << arguments << "\n" << outcome.output;
 }
 
 TEST(Tool, SortsAndChecksWhatItSorted)
@@ -274,4 +247,4 @@ TEST(Tool, OrdersARealMeshWithTheMapBackToItsCells)
 #endif
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

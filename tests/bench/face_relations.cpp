@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
-namespace visorder {
+namespace visorder::tests {
 
 namespace {
 
@@ -60,4 +60,4 @@ glm::dvec3 random_direction(std::mt19937_64& random)
     }
 } // namespace
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 using FaceKey = std::array<PointId, 4>;
 
@@ -29,4 +29,4 @@ Relations relations_across_faces(const Mesh& mesh, const glm::dvec4& eye);
 /// Of unit length.
 glm::dvec3 random_direction(std::mt19937_64& random);
 
-} // namespace visorder
+} // namespace visorder::tests

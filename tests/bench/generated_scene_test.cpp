@@ -26,7 +26,9 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 
 namespace {
 
@@ -446,4 +448,4 @@ TEST(GeneratedScene, ListsTheKnownNamesForAnUnknownOne)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::tests

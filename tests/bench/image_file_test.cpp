@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
 namespace {
 
 using testing::HasSubstr;
@@ -115,4 +117,4 @@ TEST(Png, NamesTheFileThatCannotBeWritten)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 
 namespace {
 
@@ -120,4 +122,4 @@ TEST(ToriScene, HasTwoLinkedRings)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::tests

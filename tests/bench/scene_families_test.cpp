@@ -13,7 +13,9 @@
 #include <random>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 
 namespace {
 
@@ -155,4 +157,4 @@ TEST(PinwheelScene, HasCellsThatDoNotOverlap)
 
 } // namespace
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -13,7 +13,9 @@
 #include <string>
 #include <utility>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 
 namespace {
 
@@ -133,4 +135,4 @@ TEST(CardsScene, HasAboutAsManyCrossingsAsCards)
         }
 }
 
-} // namespace visorder
+} // namespace visorder::tests

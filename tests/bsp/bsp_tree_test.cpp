@@ -21,7 +21,9 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 bool has_area(const std::vector<glm::dvec3>& points)
@@ -302,4 +304,4 @@ TEST(BspTree, DiffersBySeed)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

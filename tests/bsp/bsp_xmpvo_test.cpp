@@ -14,7 +14,9 @@
 #include <vector>
 
 // What all exact sorters have in common is tested in exact_sorters_test.cpp.
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 TEST(BspXmpvo, IsRightWithAnySeed)
@@ -80,4 +82,4 @@ TEST(BspXmpvo, CountsWhatItDoes)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

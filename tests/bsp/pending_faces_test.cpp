@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 bool meet_in_image(const Box& a, const Box& b)
@@ -293,4 +293,4 @@ TEST(ImageBoxes, AreAbsentWhereTheyAreSetSo)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

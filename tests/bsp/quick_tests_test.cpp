@@ -25,7 +25,9 @@
 #include <vector>
 
 // What the quick tests say of two faces is held against the exact one.
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 struct Answers {
@@ -341,4 +343,4 @@ TEST(FaceCorners, AreDistinctAndTheFirstThreeSpanThePlane)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -9,7 +9,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 // All pairs, without an index.
@@ -155,4 +155,4 @@ TEST(BoundaryRelations, DoNotDependOnThreads)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -13,7 +13,7 @@
 #include <vector>
 
 // The definitions, decided exactly and slowly, by other means than the library's.
-namespace visorder::brute_force {
+namespace visorder::tests::brute_force {
 
 using Number = CGAL::Mpzf; // exact for sums and products of doubles
 using Vector3 = std::array<Number, 3>;
@@ -215,4 +215,4 @@ inline bool interiors_overlap(const Scene& scene, CellId a, CellId b)
            });
 }
 
-} // namespace visorder::brute_force
+} // namespace visorder::tests::brute_force

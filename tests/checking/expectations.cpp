@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
 
 View view_from(const glm::dvec4& eye)
 {
@@ -74,4 +74,4 @@ void expect_no_obstruction_violated(const Scene& scene, const glm::dvec4& eye, c
         }
 }
 
-} // namespace visorder
+} // namespace visorder::tests

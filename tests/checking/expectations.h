@@ -9,8 +9,10 @@
 #include <vector>
 
 namespace visorder {
-
 class OrderChecker;
+}
+
+namespace visorder::tests {
 
 // What the tests of all exact sorters expect of them.
 
@@ -34,4 +36,4 @@ Order expect_right_order(const OrderChecker& checker, Sorter& sorter, const glm:
 /// coordinates, and without flat cells or overlapping ones.
 void expect_no_obstruction_violated(const Scene& scene, const glm::dvec4& eye, const Order& order);
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <sstream>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using Face = std::vector<glm::dvec3>;
@@ -312,4 +312,4 @@ TEST(FaceOverlap, TheCommonPointLiesWithinBothShadows)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 Image grey(glm::ivec2 size, float value)
@@ -95,4 +95,4 @@ TEST(DifferenceImage, IsWhiteWhereImagesAreEqualAndDarkRedWhereTheyAreFarApart)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

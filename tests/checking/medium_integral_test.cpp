@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 glm::dvec3 random_colour(Random& random)
@@ -149,4 +149,4 @@ TEST(MediumIntegral, RefusesPointsThatMakeNoMedium)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -14,7 +14,7 @@
 #include <vector>
 
 // Rays, the stretches of them inside cells, and light along them, by the plainest means.
-namespace visorder::naive {
+namespace visorder::tests::naive {
 
 using Number = long double;
 using Vector = glm::vec<3, Number>;
@@ -158,4 +158,4 @@ inline Light cast(const Scene& scene, const std::vector<MediumPoint>& medium, co
     return light;
 }
 
-} // namespace visorder::naive
+} // namespace visorder::tests::naive

@@ -13,7 +13,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <sstream>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using Matrix = std::vector<std::vector<bool>>; // [front][back], inner numbering
@@ -447,4 +447,4 @@ TEST(OrderChecker, ResultsDoNotDependOnThreads)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

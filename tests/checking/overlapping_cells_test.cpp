@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using Pairs = std::vector<std::pair<CellId, CellId>>;
@@ -150,4 +150,4 @@ TEST(OverlappingCells, TrianglesHaveNoInteriors)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

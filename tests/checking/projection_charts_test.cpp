@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 struct Triangles {
@@ -172,4 +172,4 @@ TEST(ProjectionCharts, FacesThatOverlapMeetAtAnyPlaceAndOfAnySize)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 const std::vector<MediumPoint> constant_medium{{0, 0.05, {0.2, 0.5, 0.9}}};
@@ -414,4 +414,4 @@ TEST(RayCaster, RefusesWhatItCannotCast)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::tests {
 
 namespace {
 
@@ -364,4 +364,4 @@ std::vector<glm::dvec4> small_scene_eyes(const Scene& scene, std::uint64_t seed)
     return eyes;
 }
 
-} // namespace visorder
+} // namespace visorder::tests

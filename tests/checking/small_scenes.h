@@ -12,8 +12,10 @@
 #include <vector>
 
 namespace visorder {
-
 class Scene;
+}
+
+namespace visorder::tests {
 
 /// The same numbers on every machine.
 class Random {
@@ -100,4 +102,4 @@ std::vector<glm::dvec3> points_of(const Scene& scene, const CellFace& face);
 /// middle, in planes of faces, along the axes.
 std::vector<glm::dvec4> small_scene_eyes(const Scene& scene, std::uint64_t seed);
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -12,7 +12,9 @@
 #include <limits>
 #include <oneapi/tbb/global_control.h>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 TEST(SortableKey, DescendsAsNumbersAscend)
@@ -99,4 +101,4 @@ TEST(DepthSorts, GiveTheSameOrderForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -17,7 +17,9 @@
 #include <numeric>
 #include <oneapi/tbb/global_control.h>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 // Sorts with and without windows: no relation may be violated, the cycles must be those of the relations, and every
@@ -311,4 +313,4 @@ TEST(Newell, TestsFarFewerPairsWithWindows)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using testing::HasSubstr;
@@ -181,4 +181,4 @@ TEST(Context, KnowsPlatformsByName)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

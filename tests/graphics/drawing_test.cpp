@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 TEST(Drawing, ReadsBackTheRectangleAskedFor)
@@ -69,4 +69,4 @@ TEST(Drawing, TimesTheRenderer)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// Draws a triangle over the lower left half of the image, of one colour.
 class Triangle {
@@ -49,4 +49,4 @@ inline std::vector<std::uint8_t> rgba8(const Framebuffer& framebuffer)
     return pixels;
 }
 
-} // namespace visorder
+} // namespace visorder::tests

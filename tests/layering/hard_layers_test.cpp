@@ -10,7 +10,11 @@
 #include <numbers>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
+
+using namespace scenes;
 namespace {
 
 std::vector<std::uint32_t> ascending_from(std::uint32_t first, std::size_t count)
@@ -222,4 +226,4 @@ TEST(HardLayers, TakesAnImageOfSixteenMillionPixels)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -10,7 +10,10 @@
 #include <set>
 #include <tuple>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
+using namespace scenes;
 namespace {
 
 ImageTriangles projected(const ItemMesh& items, const Scene& scene, const View& view, glm::ivec2 size)
@@ -132,4 +135,4 @@ TEST(ItemMesh, OfABoundaryHasOneOrTwoTrianglesAFace)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

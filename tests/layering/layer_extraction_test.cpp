@@ -4,7 +4,7 @@
 #include "sorting/strongly_connected.h"
 #include "tests/checking/small_scenes.h"
 #if defined(VISORDER_WITH_VTK)
-#include "vtk/read_mesh.h"
+#include "files/read_mesh.h"
 #endif
 
 #include <algorithm>
@@ -12,7 +12,11 @@
 #include <map>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
+
+using namespace scenes;
 namespace {
 
 // Holds against the truth, and the variants and platforms against each other.
@@ -180,4 +184,4 @@ TEST(LayerExtraction, ReadsNoMoreThanItNeeds)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

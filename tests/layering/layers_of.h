@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// One way of extracting layers.
 struct Extraction {
@@ -53,9 +53,9 @@ inline void expect_same(const Layers& a, const Layers& b)
 
 /// At every sample point, the nearer of two triangles has the lower layer, and none that covers a sample point lacks
 /// one.
-inline LayerCheck expect_true(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers)
+inline bench::LayerCheck expect_true(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers)
 {
-    LayerCheck check = check_layers(mesh, view, size, layers);
+    bench::LayerCheck check = bench::check_layers(mesh, view, size, layers);
     EXPECT_EQ(check.wrong, 0u);
     EXPECT_EQ(check.missed, 0u);
     for (const std::string& witness : check.witnesses)
@@ -71,4 +71,4 @@ inline std::size_t count_of(const Layers& layers, WithoutProof reason)
     return count;
 }
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -12,7 +12,9 @@
 #include <set>
 #include <thread>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 TEST(LayersSorter, ListsEveryTriangleOnceByLayers)
@@ -170,4 +172,4 @@ TEST(LayersSorter, RefusesSolidsAndPlatformsThatAreNone)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

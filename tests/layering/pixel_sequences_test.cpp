@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
+using namespace scenes;
 namespace {
 
 using Sequence = std::vector<std::pair<std::uint32_t, std::uint32_t>>; // pixel, item
@@ -74,4 +77,4 @@ TEST(PixelSequences, AreThoseOfTheTruthHoweverShortTheLists)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 TEST(XmpvoLayered, FindsOnlyTrueRelations)
@@ -125,4 +127,4 @@ TEST(XmpvoLayered, RefusesSurfacesAndFacesThatAreNotPlanar)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 inline std::set<std::pair<CellId, CellId>> pairs_in(const std::vector<std::vector<CellId>>& sets)
 {
@@ -45,4 +45,4 @@ inline void expect_interior_relations(const Scene& scene, const glm::dvec4& eye,
     EXPECT_EQ(order.back_to_front.size(), scene.cell_count());
 }
 
-} // namespace visorder
+} // namespace visorder::tests

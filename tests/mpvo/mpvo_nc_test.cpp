@@ -17,7 +17,9 @@
 #include <set>
 #include <utility>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 std::vector<NamedView> all_views(const Scene& scene)
@@ -194,4 +196,4 @@ TEST(MpvoNc, RefusesSurfaces)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 std::vector<NamedView> all_views(const Scene& scene)
@@ -98,4 +100,4 @@ TEST(Mpvo, RefusesSurfaces)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

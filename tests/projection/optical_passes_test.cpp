@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 OpticalPieces pieces_with_jumps_and_a_gap()
@@ -124,4 +124,4 @@ TEST(OpticalPasses, PiecesTooNarrowForSinglePrecisionArePassedOver)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 constexpr RasterLattice lattice{256, 8192};
@@ -120,4 +120,4 @@ TEST(Outline, CoversACellOnceWhereverItIsRounded)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

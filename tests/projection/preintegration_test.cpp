@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 const TransferFunction with_jumps(
@@ -80,4 +80,4 @@ TEST(OpticalPieces, AreTheTransferFunction)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

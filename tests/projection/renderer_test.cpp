@@ -24,7 +24,10 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace bench;
+using namespace scenes;
 namespace {
 
 using testing::HasSubstr;
@@ -447,4 +450,4 @@ TEST(Renderer, RefusesWhatItCannotDraw)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

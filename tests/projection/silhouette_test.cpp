@@ -11,7 +11,7 @@
 #include <limits>
 #include <random>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using Points = std::array<glm::ivec2, 4>;
@@ -259,4 +259,4 @@ TEST(SplitLinear, IsRightWhereTermsCancel)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <string>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using testing::AllOf;
@@ -188,4 +188,4 @@ TEST(TransferFunctionFile, RefusesWhatItCannotTakeOfParaView)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

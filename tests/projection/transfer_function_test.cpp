@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using testing::HasSubstr;
@@ -160,4 +160,4 @@ TEST(Srgb, ConversionsAreEachOthersInverse)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -11,7 +11,7 @@
 #include <map>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 // Which cells share a face by comparing all of them, in the caller's numbering.
@@ -122,4 +122,4 @@ TEST(Boundary, CountsFacesAndComponents)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using Rational = CGAL::Gmpq;
@@ -161,4 +161,4 @@ TEST(InCircumsphere, KnowsInsideOnAndOutside)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 // The side of a face as its cell's vertices and the exact predicate have it, for solid cells.
@@ -154,4 +154,4 @@ TEST(FacePlanes, RefuseFacesThatAreNotPlanar)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -11,7 +11,7 @@
 #include <string>
 #include <tuple>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 /// Two tetrahedra that share a face.
@@ -188,4 +188,4 @@ TEST(Weld, LeavesFaultsForValidateToName)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 // Small meshes that the tests share.
 
@@ -66,4 +66,4 @@ inline Mesh zoo()
     return mesh;
 }
 
-} // namespace visorder
+} // namespace visorder::tests

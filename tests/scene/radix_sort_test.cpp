@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 template <class Key>
@@ -57,4 +57,4 @@ TEST(RadixSort, SortsEveryKindOf64BitKeysStablyOnAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

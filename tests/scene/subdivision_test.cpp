@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using Triangle = std::array<PointId, 3>;
@@ -452,4 +452,4 @@ TEST(Subdivision, IsTheSameOnOneThreadAndOnMany)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 Mesh joined(const Mesh& a, const Mesh& b, const glm::dvec3& by)
@@ -161,4 +161,4 @@ TEST(Scene, LeadsBackToTheCallersNumbering)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

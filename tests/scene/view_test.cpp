@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -228,4 +228,4 @@ TEST(View, ValidateRefusesEyesThatAreNoPoint)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

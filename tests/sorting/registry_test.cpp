@@ -8,7 +8,9 @@
 #include <limits>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 // Solids, or a surface for the sorters that take no solids.
@@ -100,4 +102,4 @@ TEST(VisibilityOrder, IsOneCall)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 TEST(StronglyConnected, AreTheSetsThatReachEachOther)
@@ -46,4 +46,4 @@ TEST(StronglyConnected, TakesLongPathsWithoutRecursion)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

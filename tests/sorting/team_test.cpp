@@ -5,7 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 // Members write in turn what all read after the barrier; a barrier that lets one through early shows as a wrong sum.
@@ -49,4 +49,4 @@ TEST(Team, WorksWithinParallelWork)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -11,7 +11,9 @@
 #include <random>
 #include <set>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 // All relations that the sort is given, in the caller's numbering.
@@ -182,4 +184,4 @@ TEST(TopologicalSort, ListsDisconnectedCellsInOneLayer)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -1,8 +1,8 @@
 // Every VTK cell type: what shape it becomes, in which order its corners stand.
 
-#include "reading_error.h"
+#include "files/read_mesh.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
-#include "vtk/read_mesh.h"
 #include "vtu_text.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +10,7 @@
 #include <vtkCellType.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;

@@ -1,10 +1,11 @@
-#include "reading_error.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <vtk_netcdf.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;

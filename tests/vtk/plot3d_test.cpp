@@ -1,4 +1,4 @@
-#include "reading_error.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;

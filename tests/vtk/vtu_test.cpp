@@ -1,6 +1,6 @@
 // What is taken of a file: points, cells, scalars; and what of a file is refused. By .vtu files, which hold everything.
 
-#include "reading_error.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 #include "vtu_text.h"
 
@@ -11,6 +11,7 @@
 #include <vtkOutputWindow.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -33,7 +34,7 @@ std::string error_of(const VtuText& vtu, const ReadOptions& options = {})
 
 TEST(Vtu, ReadsPointsAndCellsInTheirOrder)
 {
-    const MeshFile file = read(two_tetrahedra());
+    const MeshFile file = read(vtu_of_two_tetrahedra());
     EXPECT_EQ(file.mesh.points.size(), 5u);
     EXPECT_EQ(file.mesh.points[4], glm::dvec3(-1, 0, 0));
     EXPECT_THAT(file.mesh.shapes, ElementsAre(CellShape::tetrahedron, CellShape::tetrahedron));
@@ -45,14 +46,14 @@ TEST(Vtu, ReadsPointsAndCellsInTheirOrder)
 
 TEST(Vtu, KeepsEveryBitOfADoubleCoordinate)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.points[3][0] = 0.1;
     EXPECT_EQ(read(vtu).mesh.points[3].x, 0.1);
 }
 
 TEST(Vtu, TakesTheFirstPointScalarOfOneComponentThatHoldsNoIds)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.point_attributes = "GlobalIds=\"id\"";
     vtu.point_arrays = {{"id", 1, {1, 2, 3, 4, 5}, "Int64"},
                         {"velocity", 3, {1, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 4}},
@@ -70,7 +71,7 @@ TEST(Vtu, TakesTheFirstPointScalarOfOneComponentThatHoldsNoIds)
 
 TEST(Vtu, TakesTheMagnitudeOfAVector)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.point_arrays = {{"velocity", 3, {1, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 4}}};
     EXPECT_EQ(read(vtu).scalar, "");
     const MeshFile file = read(vtu, {.scalar = "velocity"});
@@ -80,7 +81,7 @@ TEST(Vtu, TakesTheMagnitudeOfAVector)
 
 TEST(Vtu, AveragesCellDataOverTheCellsOfEachPoint)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.cell_arrays = {{"stress", 1, {2, 5}}};
     const MeshFile file = read(vtu);
     EXPECT_EQ(file.scalar, "stress");
@@ -90,7 +91,7 @@ TEST(Vtu, AveragesCellDataOverTheCellsOfEachPoint)
 
 TEST(Vtu, AveragesCellDataOverCellsThatAreNotLeftOut)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.cells.insert(vtu.cells.begin() + 1, {5, {0, 1, 2}});
     vtu.cell_arrays = {{"stress", 1, {2, 1000, 5}}};
     const MeshFile file = read(vtu);
@@ -101,14 +102,14 @@ TEST(Vtu, AveragesCellDataOverCellsThatAreNotLeftOut)
 
 TEST(Vtu, TellsOfScalarsThatAreNotFinite)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.point_arrays = {{"heat", 1, {1, 2, 3, 4, 1e300}}};
     EXPECT_THAT(read(vtu).notes, ElementsAre("1 scalars are not finite"));
 }
 
 TEST(Vtu, LeavesOutPointsThatNoCellUses)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.points.insert(vtu.points.begin() + 1, {7, 7, NAN});
     vtu.cells = {{10, {0, 2, 3, 4}}, {10, {0, 3, 2, 5}}};
     vtu.point_arrays = {{"heat", 1, {5, 0, 4, 3, 2, 1}}};
@@ -121,7 +122,7 @@ TEST(Vtu, LeavesOutPointsThatNoCellUses)
 
 TEST(Vtu, WeldsOnRequestOnly)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.points.push_back({0, 1, 0});
     vtu.cells[1].points = {0, 2, 5, 4};
     EXPECT_EQ(read(vtu).mesh.points.size(), 6u);
@@ -133,7 +134,7 @@ TEST(Vtu, WeldsOnRequestOnly)
 
 TEST(Vtu, LeavesOutHiddenCells)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.cell_arrays = {{"vtkGhostType", 1, {0, 32}, "UInt8"}};
     const MeshFile file = read(vtu);
     EXPECT_EQ(file.mesh.cell_count(), 1u);
@@ -143,7 +144,7 @@ TEST(Vtu, LeavesOutHiddenCells)
 
 TEST(Vtu, NamesTheScalarsThereAre)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     EXPECT_EQ(error_of(vtu, {.scalar = "foo"}), "no scalar \"foo\"; it has: none");
     vtu.point_arrays = {{"heat", 1, {1, 2, 3, 4, 5}}};
     vtu.cell_arrays = {{"stress", 1, {0, 0}}};
@@ -167,12 +168,12 @@ TEST(Vtu, RefusesAnUnknownEnding)
 
 TEST(Vtu, KnowsItsEndingInAnyCase)
 {
-    EXPECT_EQ(read_mesh(folder.write("MESH.VTU", two_tetrahedra().str())).mesh.cell_count(), 2u);
+    EXPECT_EQ(read_mesh(folder.write("MESH.VTU", vtu_of_two_tetrahedra().str())).mesh.cell_count(), 2u);
 }
 
 TEST(Vtu, RefusesAFileCutShortAnywhere)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.point_arrays = {{"heat", 1, {1, 2, 3, 4, 5}}};
     const std::string whole = vtu.str();
     for (std::size_t length = 0; length < whole.size() - 2; length += 7)
@@ -192,14 +193,14 @@ TEST(Vtu, RefusesWhatIsNoMesh)
 TEST(Vtu, RefusesAMeshWithoutCells)
 {
     EXPECT_EQ(error_of({}), "there are no cells in it");
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.cells = {{1, {0}}, {3, {1, 2}}};
     EXPECT_EQ(error_of(vtu), "there are no solid or surface cells in it");
 }
 
 TEST(Vtu, RefusesAPointThatIsNotThere)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.cells[1].points[3] = 5;
     EXPECT_EQ(error_of(vtu), "cell 1: there is no point 5");
     vtu.cells[1].points[3] = -1;
@@ -208,14 +209,14 @@ TEST(Vtu, RefusesAPointThatIsNotThere)
 
 TEST(Vtu, RefusesCoordinatesThatAreNotFinite)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.points[4][1] = NAN;
     EXPECT_EQ(error_of(vtu), "cell 1: coordinates of point 4 are not finite");
 }
 
 TEST(Vtu, RefusesACellWithTooFewPoints)
 {
-    VtuText vtu = two_tetrahedra();
+    VtuText vtu = vtu_of_two_tetrahedra();
     vtu.cells[0].type = 12;
     EXPECT_EQ(error_of(vtu), "cell 0: a vtkHexahedron with 4 points");
 }
@@ -233,7 +234,7 @@ TEST(Vtu, LeavesVtksMessagesAsTheyWere)
 
 TEST(Vtu, ReadsFromManyThreads)
 {
-    const auto good = folder.write("good.vtu", two_tetrahedra().str());
+    const auto good = folder.write("good.vtu", vtu_of_two_tetrahedra().str());
     const auto bad = folder.write("bad.vtu", "hello");
     std::atomic<int> read = 0;
     std::atomic<int> refused = 0;

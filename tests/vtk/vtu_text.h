@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// A .vtu file in text, made of what is set.
 struct VtuText {
@@ -71,7 +71,7 @@ private:
 };
 
 /// Two unit tetrahedra that share the face in the plane x = 0, of points 0, 1, 2.
-inline VtuText two_tetrahedra()
+inline VtuText vtu_of_two_tetrahedra()
 {
     VtuText vtu;
     vtu.points = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 0, 0}};
@@ -79,4 +79,4 @@ inline VtuText two_tetrahedra()
     return vtu;
 }
 
-} // namespace visorder
+} // namespace visorder::tests

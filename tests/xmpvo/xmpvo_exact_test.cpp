@@ -10,7 +10,9 @@
 #include <vector>
 
 // What all exact sorters have in common is tested in tests/bsp/exact_sorters_test.cpp.
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 TEST(XmpvoExact, CountsTheBoundaryRelations)
@@ -57,4 +59,4 @@ TEST(XmpvoExact, DerivesItsStructuresWhenItIsMade)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -20,7 +20,9 @@
 #include <oneapi/tbb/task_arena.h>
 #include <string>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 TEST(Xmpvo, OrdersEveryConvexSceneFromEveryHardView)
@@ -226,4 +228,4 @@ TEST(Xmpvo, RefusesSurfaces)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

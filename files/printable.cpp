@@ -1,4 +1,4 @@
-#include "vtk/printable.h"
+#include "files/printable.h"
 
 #include <algorithm>
 

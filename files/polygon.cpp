@@ -1,4 +1,4 @@
-#include "vtk/polygon.h"
+#include "files/polygon.h"
 
 #include <algorithm>
 #include <cmath>

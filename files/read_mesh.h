@@ -1,29 +1,12 @@
 #pragma once
 
-#include "scene/mesh.h"
+#include "files/mesh_file.h"
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
 namespace visorder {
-
-/// What to take of a file.
-struct ReadOptions {
-    /// The array to take, of points or of cells, by its exact name; magnitudes, if it has several components. Empty:
-    /// the format's default, which is the density in Plot3D and elsewhere the first array of one component that does
-    /// not hold ids, of points, else of cells.
-    std::string scalar = "";
-    bool weld = false; ///< join points with exactly equal coordinates (see `weld`)
-};
-
-/// A mesh as a file gave it, and what reading changed.
-struct MeshFile {
-    Mesh mesh;
-    std::string scalar;             ///< name of the array taken, empty if none
-    std::vector<std::string> notes; ///< one line on each thing that is not in the mesh as it is in the file
-};
 
 /// Reads a mesh, in a format chosen by the ending of the file's name:
 /// - VTK's unstructured grids (.vtu) and legacy files of any kind of grid (.vtk);
@@ -37,11 +20,13 @@ struct MeshFile {
 /// these. The mesh is valid (see `validate`).
 ///
 /// Throws InputError, naming the file, for one that is missing, damaged or of an unknown ending, that has no cells or a
-/// solid that visorder has no shape for, or has no array named `options.scalar`. Thread-safe; VTK files are read one at
-/// a time, and meanwhile VTK's messages, those of other threads too, are collected rather than shown.
+/// solid that visorder has no shape for, or has no array named `options.scalar`; for one whose reader crashes, or takes
+/// more time or memory than `limits_for` allows; and where the program for that cannot be found or started (see
+/// reader_process.h). Thread-safe. Without `options.isolated`, VTK reads one file at a time, and meanwhile its
+/// messages, those of other threads too, are collected rather than shown.
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
 
 /// The endings of file names that `read_mesh` takes.
-std::span<const char* const> mesh_file_endings();
+std::vector<std::string> mesh_file_endings();
 
 } // namespace visorder

@@ -1,9 +1,10 @@
-#include "reading_error.h"
+#include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::Each;
 using testing::ElementsAre;
 using testing::IsEmpty;

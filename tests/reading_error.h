@@ -1,12 +1,12 @@
 #pragma once
 
+#include "files/read_mesh.h"
 #include "scene/error.h"
-#include "vtk/read_mesh.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// What reading the file complains of, after the file's name; "" if it reads. Expects one line, and nothing printed.
 inline std::string reading_error(const std::filesystem::path& file, const ReadOptions& options = {})
@@ -28,4 +28,4 @@ inline std::string reading_error(const std::filesystem::path& file, const ReadOp
     return error.substr(std::min(error.size(), file.string().size() + 2));
 }
 
-} // namespace visorder
+} // namespace visorder::tests

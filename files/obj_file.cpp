@@ -1,8 +1,8 @@
-#include "vtk/obj_file.h"
+#include "files/obj_file.h"
 
+#include "files/polygon.h"
+#include "files/printable.h"
 #include "scene/error.h"
-#include "vtk/polygon.h"
-#include "vtk/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -143,8 +143,10 @@ private:
 
 } // namespace
 
-MeshFile read_obj_file(const std::filesystem::path& path)
+MeshFile read_obj_file(const std::filesystem::path& path, const ReadOptions& options)
 {
+    if (!options.scalar.empty())
+        throw InputError(fmt::format("{}: no scalar \"{}\"; it has: none", path.string(), options.scalar));
     return ObjParser(path).run();
 }
 

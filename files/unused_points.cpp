@@ -1,4 +1,4 @@
-#include "vtk/unused_points.h"
+#include "files/unused_points.h"
 
 namespace visorder {
 
