@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 struct Arguments {
@@ -74,7 +74,7 @@ Verdict verdict_of(const Mesh& mesh, const std::string& sorter_name, const glm::
 {
     const Scene scene(mesh);
     const auto sorter = make_sorter(sorter_name, scene);
-    if (sorter->guarantee() != Guarantee::exact)
+    if (sorter->guarantee() == Guarantee::approximate)
         return {};
     return judge(DirectRelations(scene, eye), *sorter, eye);
 }
@@ -127,7 +127,7 @@ public:
                 continue;
             try {
                 auto sorter = make_sorter(info.name, scene);
-                if (sorter->guarantee() != Guarantee::exact)
+                if (sorter->guarantee() == Guarantee::approximate)
                     continue;
                 sorters.push_back(std::move(sorter));
                 names.emplace_back(info.name);
@@ -202,11 +202,11 @@ int run(const Arguments& arguments)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests
 
 int main(int argc, char** argv)
 {
-    visorder::Arguments arguments;
+    visorder::tests::Arguments arguments;
     CLI::App app("Exact sorters against the truth on random small scenes of all hard kinds");
     app.add_option("--scenes", arguments.scenes, "Scenes in all, spread over the kinds")->capture_default_str();
     app.add_option("--first", arguments.first, "Number of the first scene of each kind")->capture_default_str();
@@ -215,5 +215,5 @@ int main(int argc, char** argv)
     app.add_option("--write", arguments.folder, "A folder for the scenes of wrong orders, as .vtk");
     app.add_option("--show", arguments.shown, "Wrong orders to show of each kind")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    return visorder::run(arguments);
+    return visorder::tests::run(arguments);
 }

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace visorder {
+namespace visorder::tests {
 
 namespace {
 
@@ -580,4 +580,4 @@ std::string vtk_text(const Mesh& mesh, const std::string& title)
     return text;
 }
 
-} // namespace visorder
+} // namespace visorder::tests

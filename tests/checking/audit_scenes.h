@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 
 /// A scene that is hard to order, and eyes from which it is. Solids are convex with planar faces.
 struct AuditScene {
@@ -32,4 +32,4 @@ std::span<const AuditKind> audit_kinds();
 /// The mesh as text of a VTK legacy file, every coordinate in as many digits as tell it apart.
 std::string vtk_text(const Mesh& mesh, const std::string& title);
 
-} // namespace visorder
+} // namespace visorder::tests

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 bool has(const DirectRelations& relations, CellId front, CellId back)
@@ -164,4 +164,4 @@ TEST(DirectRelations, RefuseWhatTheyCannotTake)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

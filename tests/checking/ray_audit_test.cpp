@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
 namespace {
 
 using sampled_rays::Rational;
@@ -215,4 +215,4 @@ TEST(RayAudit, RefusesWhatItCannotTake)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests

@@ -11,7 +11,7 @@
 
 // What rays show, one after another in rational arithmetic: dumber than any other truth, and never wrong about what it
 // sees. What no ray of it passes, it does not know.
-namespace visorder::sampled_rays {
+namespace visorder::tests::sampled_rays {
 
 using Rational = CGAL::Exact_rational;
 using Vector = std::array<Rational, 3>;
@@ -158,4 +158,4 @@ inline std::pair<bool, bool> occlusions(const Scene& scene, CellId a, CellId b, 
     return found;
 }
 
-} // namespace visorder::sampled_rays
+} // namespace visorder::tests::sampled_rays
