@@ -16,6 +16,7 @@ struct SceneSource {
     std::string generated;
     std::string scalar;
     bool weld = false;
+    std::string time; ///< as in ReadOptions
     bool whole = false;
 };
 
@@ -29,7 +30,7 @@ struct SourcedMesh {
     std::vector<std::string> notes;
 };
 
-/// Adds MESH, --scene, --scalar, --weld and --whole.
+/// Adds MESH, --scene, --scalar, --weld, --time and --whole.
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command);
 
 /// Reads or makes the mesh. Throws InputError.

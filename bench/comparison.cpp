@@ -34,7 +34,7 @@ std::vector<Source> sources_of(const ComparisonOptions& options)
 {
     std::vector<Source> sources;
     for (const std::filesystem::path& file : options.files) {
-        const ReadOptions read{options.scalar, options.weld};
+        const ReadOptions read{.scalar = options.scalar, .weld = options.weld, .time = options.time};
         sources.push_back({file.filename().string(), [file, read](std::vector<std::string>& notes) {
                                MeshFile result = read_mesh(file, read);
                                notes = std::move(result.notes);

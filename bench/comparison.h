@@ -28,6 +28,7 @@ struct ComparisonOptions {
     bool subdivide = true;                    ///< zoo cells into tetrahedra
     bool weld = false;                        ///< points of files with exactly equal coordinates
     std::string scalar;                       ///< of files; empty: the format's default
+    std::string time;                         ///< of files, as in ReadOptions
     SorterOptions sorter_options;
     int frames = 1; ///< views from which the scene is drawn in every order, where it can be drawn and has no more than
     std::size_t frames_up_to = 500'000; ///< cells, for what can take minutes beyond
