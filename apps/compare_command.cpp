@@ -3,11 +3,13 @@
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/sorter_options.h"
+#include "apps/weld_option.h"
 #include "bench/comparison.h"
 #include "bench/report.h"
 
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <unistd.h>
 
@@ -22,6 +24,7 @@ struct Arguments {
     std::vector<std::string> sorters;
     std::string size = "512x512";
     std::string json_file;
+    WeldOption weld;
     bool whole = false;
     bool statistics = false;
 };
@@ -30,9 +33,19 @@ struct Arguments {
 const std::vector<std::string> default_scenes{"delaunay:200000", "carved:200000", "grid:150000", "fin:150000",
                                               "pinwheel"};
 
+std::vector<std::string> refused_names(const Comparison& comparison)
+{
+    std::vector<std::string> names;
+    for (const Refusal& refusal : comparison.refused)
+        names.push_back(refusal.source);
+    return names;
+}
+
 int run(Arguments& arguments)
 {
     ComparisonOptions& options = arguments.options;
+    options.weld = arguments.weld.given;
+    options.weld_tolerance = arguments.weld.tolerance;
     options.size = image_size(arguments.size, "--size");
     options.subdivide = !arguments.whole;
     if (arguments.sorters != std::vector<std::string>{"all"})
@@ -49,11 +62,17 @@ int run(Arguments& arguments)
         machine.gl_renderer = comparison.gl_renderer;
     if (!arguments.json_file.empty())
         write_file(arguments.json_file, json(comparison, machine));
+    for (const Refusal& refusal : comparison.refused)
+        fmt::print(stderr, "visorder: {}\n", refusal.reason);
+    if (comparison.scenes.empty())
+        return exit_bad_input;
     const int views = comparison.runs.empty() ? 0 : comparison.runs.back().view + 1;
     fmt::print("{}, {} thread{}; {} views a scene: times are medians over them, counts are sums\n\n{}", machine.cpu,
                machine.threads, machine.threads == 1 ? "" : "s", views,
                table(comparison, isatty(STDOUT_FILENO) != 0, arguments.statistics));
-    return comparison.failed() ? exit_wrong : exit_success;
+    if (!comparison.refused.empty())
+        fmt::print("\nnot compared, for what standard error says: {}\n", fmt::join(refused_names(comparison), ", "));
+    return !comparison.refused.empty() ? exit_bad_input : comparison.failed() ? exit_wrong : exit_success;
 }
 
 } // namespace
@@ -78,7 +97,7 @@ void add_compare_command(CLI::App& app, Command& chosen)
         ->check(CLI::Range(5, 1000));
     command->add_option("--scalar", options.scalar, "The array to take of each mesh (default: the format's)");
     command->add_option("--time", options.time, "The time step to take of each mesh (default: its last)");
-    command->add_flag("--weld", options.weld, "Join points of meshes with exactly equal coordinates");
+    add_weld_option(*command, arguments->weld);
     command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
     command->add_flag("--statistics", arguments->statistics, "Also what each sorter counts of its own work");
     add_sorter_options(*command, options.sorter_options);

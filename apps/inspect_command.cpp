@@ -17,9 +17,8 @@ const char* yes_or_no(bool yes)
     return yes ? "yes" : "no";
 }
 
-int run(const SceneSource& source)
+int run(SourcedMesh& sourced)
 {
-    SourcedMesh sourced = load(source);
     const bool has_scalars = !sourced.mesh.scalars.empty();
     const auto [low, high] = std::minmax_element(sourced.mesh.scalars.begin(), sourced.mesh.scalars.end());
     const float least = has_scalars ? *low : 0, greatest = has_scalars ? *high : 0;
@@ -58,6 +57,12 @@ int run(const SceneSource& source)
         fmt::print("  face to face    {}\n", yes_or_no(traits.face_to_face));
         fmt::print("  planar faces    {}\n", yes_or_no(traits.planar_faces));
     }
+    if (!scene.is_surface() && traits.planar_faces)
+        fmt::print("  overlaps        {}\n",
+                   scene.overlapping_cells().empty()
+                       ? std::string("no cells overlap")
+                       : fmt::format("{} pairs of cells; orders are {}", scene.overlapping_cells().size(),
+                                     describe(exact_up_to_overlaps(scene), scene)));
     const AutoChoice choice = choose_sorter(scene);
     fmt::print("  auto            {}: {}\n", choice.name, choice.reason);
     if (traits.planar_faces)
@@ -66,6 +71,12 @@ int run(const SceneSource& source)
         fmt::print("  {:<15} {:.3f} s, {:.1f} MiB\n", name(record.structure), record.seconds,
                    static_cast<double>(record.bytes) / (1 << 20));
     return exit_success;
+}
+
+int run(const SceneSource& source)
+{
+    SourcedMesh sourced = load(source);
+    return with_names_of(sourced, [&] { return run(sourced); });
 }
 
 } // namespace

@@ -39,20 +39,35 @@ struct Variant {
 constexpr std::array variants{Variant{"layers", LayerVariant::naive}, Variant{"layers-blocked", LayerVariant::blocked},
                               Variant{"layers-compute", LayerVariant::compute}};
 
-// The mesh itself if it is a surface, else its boundary.
-Mesh surface_of(Mesh mesh)
+// A surface, and what its triangles are called.
+struct NamedSurface {
+    Mesh mesh;
+    CellNumbers cells;
+};
+
+// The mesh itself if it is a surface, else its boundary, whose triangles are parts of the cells that they bound.
+NamedSurface surface_of(SourcedMesh& sourced)
 {
-    if (mesh.shapes.empty() || mesh.shapes.front() == CellShape::triangle)
-        return mesh;
-    const Scene scene(std::move(mesh));
-    Mesh surface;
-    surface.points = scene.mesh().points;
+    if (sourced.mesh.shapes.empty() || sourced.mesh.shapes.front() == CellShape::triangle)
+        return {std::move(sourced.mesh), sourced.cells};
+    const Scene scene(std::move(sourced.mesh));
+    std::vector<std::pair<CellId, FaceLoop>> triangles; // the caller's cell
     for (const CellFace& face : scene.boundary().faces) {
         const FaceLoop loop = boundary_loop(scene.mesh(), face);
         for (int i = 2; i < loop.count; ++i)
-            surface.add(CellShape::triangle, std::array{loop.begin()[0], loop.begin()[i - 1], loop.begin()[i]});
+            triangles.push_back(
+                {scene.caller_cells()[face.cell], {{loop.begin()[0], loop.begin()[i - 1], loop.begin()[i]}, 3}});
     }
-    return surface;
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    Mesh surface;
+    surface.points = scene.mesh().points;
+    std::vector<std::uint64_t> file_cells;
+    for (const auto& [cell, loop] : triangles) {
+        surface.add(CellShape::triangle, std::span(loop.begin(), 3));
+        file_cells.push_back(sourced.cells.file_cells()[cell]);
+    }
+    return {std::move(surface), {std::move(file_cells), sourced.cells.blocks()}};
 }
 
 std::size_t used_points(const Mesh& mesh)
@@ -109,7 +124,8 @@ bool same(const Layers& a, const Layers& b)
 }
 
 // Holds the frames of one variant on one platform against the truth; the others must be equal to it.
-bool check_frames(const Scene& scene, const Mesh& mesh, const Arguments& arguments, glm::ivec2 size, Progress& progress)
+bool check_frames(const Scene& scene, const NamedSurface& surface, const Arguments& arguments, glm::ivec2 size,
+                  Progress& progress)
 {
     std::vector<Layers> expected;
     bool right = true;
@@ -132,8 +148,9 @@ bool check_frames(const Scene& scene, const Mesh& mesh, const Arguments& argumen
     LayerCheck sum;
     for (int i = 0; i < arguments.frames; ++i) {
         progress.show(fmt::format("{} x {}, truth of frame {}", size.x, size.y, i + 1));
-        const LayerCheck check = check_layers(mesh, frame_view(scene, static_cast<double>(i) / arguments.frames, size),
-                                              size, expected[static_cast<std::size_t>(i)]);
+        const LayerCheck check = check_layers(
+            surface.mesh, frame_view(scene, static_cast<double>(i) / arguments.frames, size), size,
+            expected[static_cast<std::size_t>(i)], [&](CellId triangle) { return surface.cells.name(triangle); });
         sum.samples += check.samples;
         sum.fragments += check.fragments;
         sum.pairs += check.pairs;
@@ -156,7 +173,8 @@ int run(const Arguments& arguments)
         sizes.push_back(image_size(text, "--size"));
     const GlPlatform platform = gl_platform(arguments.gl);
     SourcedMesh sourced = load(*arguments.source);
-    const Mesh mesh = surface_of(std::move(sourced.mesh));
+    const NamedSurface surface = surface_of(sourced);
+    const Mesh& mesh = surface.mesh;
     const Scene scene(mesh);
 
     Progress progress;
@@ -204,7 +222,7 @@ int run(const Arguments& arguments)
     fmt::print("\nagainst depths in double precision, all variants on EGL and OSMesa:\n");
     bool right = true;
     for (const glm::ivec2 size : sizes)
-        right = check_frames(scene, mesh, arguments, size, progress) && right;
+        right = check_frames(scene, surface, arguments, size, progress) && right;
     return right ? exit_success : exit_wrong;
 }
 

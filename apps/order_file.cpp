@@ -3,6 +3,7 @@
 #include "apps/output_file.h"
 #include "scene/error.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -22,9 +23,11 @@ static_assert(std::endian::native == std::endian::little, "the array is written 
 // NumPy's format 1.0: magic, version, length of the header, a Python dictionary padded with blanks to a multiple of 64.
 constexpr std::string_view magic("\x93NUMPY\x01\x00", 8);
 
-std::string npy_of(std::span<const CellId> cells)
+std::string npy_of(std::span<const std::uint64_t> cells)
 {
-    std::string header = fmt::format("{{'descr': '<u4', 'fortran_order': False, 'shape': ({},), }}", cells.size());
+    const bool narrow = std::all_of(cells.begin(), cells.end(), [](std::uint64_t cell) { return cell <= 0xffffffffu; });
+    std::string header =
+        fmt::format("{{'descr': '<u{}', 'fortran_order': False, 'shape': ({},), }}", narrow ? 4 : 8, cells.size());
     const std::size_t prefix = magic.size() + 2;
     header.append(63 - (prefix + header.size()) % 64, ' ');
     header += '\n';
@@ -32,14 +35,19 @@ std::string npy_of(std::span<const CellId> cells)
     std::string bytes(magic);
     bytes.append(reinterpret_cast<const char*>(&length), 2);
     bytes += header;
-    bytes.append(reinterpret_cast<const char*>(cells.data()), cells.size_bytes());
+    if (narrow) {
+        const std::vector<std::uint32_t> words(cells.begin(), cells.end());
+        bytes.append(reinterpret_cast<const char*>(words.data()), 4 * words.size());
+    } else {
+        bytes.append(reinterpret_cast<const char*>(cells.data()), cells.size_bytes());
+    }
     return bytes;
 }
 
-std::string text_of(std::span<const CellId> cells)
+std::string text_of(std::span<const std::uint64_t> cells)
 {
     fmt::memory_buffer text;
-    for (CellId cell : cells)
+    for (std::uint64_t cell : cells)
         fmt::format_to(std::back_inserter(text), "{}\n", cell);
     return fmt::to_string(text);
 }
@@ -49,7 +57,7 @@ std::string text_of(std::span<const CellId> cells)
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-std::vector<CellId> cells_of_npy(const std::filesystem::path& file, const std::string& bytes)
+std::vector<std::uint64_t> cells_of_npy(const std::filesystem::path& file, const std::string& bytes)
 {
     if (bytes.size() < 10 || bytes.compare(0, 6, magic.substr(0, 6)) != 0)
         bad(file, "not a NumPy array");
@@ -71,7 +79,7 @@ std::vector<CellId> cells_of_npy(const std::filesystem::path& file, const std::s
     const std::size_t count = std::stoull(match[1]);
     if (bytes.size() - prefix - length != count * width)
         bad(file, "its length is not that of its shape");
-    std::vector<CellId> cells(count);
+    std::vector<std::uint64_t> cells(count);
     for (std::size_t i = 0; i < count; ++i) {
         std::uint64_t value = 0;
         for (std::size_t k = 0; k < width; ++k) {
@@ -79,20 +87,20 @@ std::vector<CellId> cells_of_npy(const std::filesystem::path& file, const std::s
             value = value << 8 | static_cast<unsigned char>(byte);
         }
         const bool negative = is_signed && (value >> (8 * width - 1)) != 0;
-        if (negative || value > 0xffffffffu)
+        if (negative)
             bad(file, fmt::format("entry {} is no cell", i));
-        cells[i] = static_cast<CellId>(value);
+        cells[i] = value;
     }
     return cells;
 }
 
-std::vector<CellId> cells_of_text(const std::filesystem::path& file, const std::string& text)
+std::vector<std::uint64_t> cells_of_text(const std::filesystem::path& file, const std::string& text)
 {
-    std::vector<CellId> cells;
+    std::vector<std::uint64_t> cells;
     const char* at = text.data();
     const char* const end = at + text.size();
     for (std::size_t line = 1; at < end; ++line) {
-        CellId cell = 0;
+        std::uint64_t cell = 0;
         const auto [next, error] = std::from_chars(at, end, cell);
         const char* after = next < end && *next == '\r' ? next + 1 : next;
         if (error != std::errc() || (after < end && *after != '\n'))
@@ -105,12 +113,12 @@ std::vector<CellId> cells_of_text(const std::filesystem::path& file, const std::
 
 } // namespace
 
-void write_order(const std::filesystem::path& file, std::span<const CellId> cells)
+void write_order(const std::filesystem::path& file, std::span<const std::uint64_t> cells)
 {
     write_file(file, file.extension() == ".npy" ? npy_of(cells) : text_of(cells));
 }
 
-std::vector<CellId> read_order(const std::filesystem::path& file)
+std::vector<std::uint64_t> read_order(const std::filesystem::path& file)
 {
     std::ifstream in(file, std::ios::binary);
     if (!in)

@@ -85,7 +85,7 @@ TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
     return named_transfer_function(arguments.transfer, scene, unit_length);
 }
 
-int run(const Arguments& arguments)
+int run(const Arguments& arguments, SourcedMesh& sourced)
 {
     const bool exr = is_exr(arguments.output);
     RenderOptions options;
@@ -95,7 +95,6 @@ int run(const Arguments& arguments)
     options.tables = {arguments.table_scalars, arguments.table_lengths, !arguments.even_lengths};
     const GlPlatform platform = gl_platform(arguments.sorter_options.gl);
 
-    SourcedMesh sourced = load(*arguments.source);
     const Scene scene(std::move(sourced.mesh));
     const View view = chosen_view(arguments, scene);
     const TransferFunction function = chosen_function(arguments, scene);
@@ -116,6 +115,13 @@ int run(const Arguments& arguments)
                taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
                context.renderer(), arguments.sorter, describe(sorter->guarantee(), scene));
     return exit_success;
+}
+
+int run(const Arguments& arguments)
+{
+    is_exr(arguments.output); // says so, if it is neither, before the work
+    SourcedMesh sourced = load(*arguments.source);
+    return with_names_of(sourced, [&] { return run(arguments, sourced); });
 }
 
 } // namespace

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <numeric>
 
 namespace visorder::apps {
 
@@ -21,7 +20,7 @@ std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
                            ", and most of them with .gz");
     command.add_option("--scene", source->generated, "A generated scene instead, NAME[:SIZE[:SEED]]");
     command.add_option("--scalar", source->scalar, "The array to take (default: the format's)");
-    command.add_flag("--weld", source->weld, "Join points with exactly equal coordinates");
+    add_weld_option(command, source->weld);
     command.add_option("--time", source->time,
                        "The time step to take: first, last, index:N or its time (default: last)");
     command.add_flag("--whole", source->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
@@ -35,26 +34,38 @@ SourcedMesh load(const SceneSource& source)
     if (!source.file.empty() && !source.generated.empty())
         throw InputError("both a mesh and --scene given; one of them can be taken");
     SourcedMesh result;
+    MeshFile file;
     if (!source.generated.empty()) {
         result.name = source.generated;
-        result.mesh = generate(source.generated);
+        file.mesh = generate(source.generated);
     } else {
         result.name = source.file;
-        MeshFile file = read_mesh(source.file, {.scalar = source.scalar, .weld = source.weld, .time = source.time});
-        result.mesh = std::move(file.mesh);
-        result.scalar = std::move(file.scalar);
-        result.notes = std::move(file.notes);
+        file = read_mesh(source.file, {.scalar = source.scalar,
+                                       .weld = source.weld.given,
+                                       .weld_tolerance = source.weld.tolerance,
+                                       .time = source.time});
     }
-    result.source_cells = result.mesh.cell_count();
+    result.source_cells = file.mesh.cell_count();
     if (source.whole) {
-        result.cell_of.resize(result.source_cells);
-        std::iota(result.cell_of.begin(), result.cell_of.end(), CellId{0});
+        result.cells = cell_numbers(file);
+        result.mesh = std::move(file.mesh);
     } else {
-        Subdivision subdivision = subdivide(result.mesh);
+        Subdivision subdivision = subdivide(file.mesh);
+        result.cells = cell_numbers(file, subdivision.cell_of);
         result.mesh = std::move(subdivision.mesh);
-        result.cell_of = std::move(subdivision.cell_of);
     }
+    result.scalar = std::move(file.scalar);
+    result.notes = std::move(file.notes);
     return result;
+}
+
+int with_names_of(const SourcedMesh& sourced, const std::function<int()>& body)
+{
+    try {
+        return body();
+    } catch (const CellError& error) {
+        throw InputError(fmt::format("{}: {}", sourced.name, sourced.cells.message(error)));
+    }
 }
 
 } // namespace visorder::apps

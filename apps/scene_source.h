@@ -1,9 +1,11 @@
 #pragma once
 
+#include "apps/weld_option.h"
+#include "files/cell_numbers.h"
 #include "scene/mesh.h"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,7 +17,7 @@ struct SceneSource {
     std::string file;
     std::string generated;
     std::string scalar;
-    bool weld = false;
+    WeldOption weld;
     std::string time; ///< as in ReadOptions
     bool whole = false;
 };
@@ -24,7 +26,7 @@ struct SceneSource {
 struct SourcedMesh {
     std::string name;
     Mesh mesh;                    ///< tetrahedra, unless whole zoo cells were asked for
-    std::vector<CellId> cell_of;  ///< of each cell, that of the source which it is part of
+    CellNumbers cells{{}, {}};    ///< what they are called
     std::size_t source_cells = 0; ///< before subdivision
     std::string scalar;           ///< the array that was taken
     std::vector<std::string> notes;
@@ -35,5 +37,8 @@ std::shared_ptr<SceneSource> add_scene_source(CLI::App& command);
 
 /// Reads or makes the mesh. Throws InputError.
 SourcedMesh load(const SceneSource& source);
+
+/// Runs what a command does with the mesh; what it throws of a cell names the source, and the cell as the source does.
+int with_names_of(const SourcedMesh& sourced, const std::function<int()>& body);
 
 } // namespace visorder::apps

@@ -21,24 +21,30 @@ struct Arguments {
     std::string map;
 };
 
-int run(const Arguments& arguments)
+int run(const Arguments& arguments, SourcedMesh& sourced)
 {
-    SourcedMesh sourced = load(*arguments.source);
-    const std::vector<CellId> cell_of = std::move(sourced.cell_of);
     const Scene scene(std::move(sourced.mesh));
     const View view = view_of(*arguments.view, scene);
     const auto sorter = make_sorter(arguments.sorter, scene, arguments.sorter_options);
     Order order;
     sorter->sort(view, order);
-    write_order(arguments.output, order.back_to_front);
+    write_order(arguments.output, sourced.cells.numbers(order.back_to_front));
     if (!arguments.map.empty())
-        write_order(arguments.map, cell_of);
+        write_order(arguments.map, sourced.cells.file_cells());
     fmt::print("{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output, order.back_to_front.size(),
                arguments.sorter, describe(sorter->guarantee(), scene), order.cycles.size());
-    if (sourced.source_cells != cell_of.size())
+    if (sourced.source_cells != scene.cell_count())
         fmt::print("cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
                    sourced.source_cells);
+    else if (!sourced.cells.whole())
+        fmt::print("cells are parts of the file's cells; --map FILE tells of which each is part\n");
     return exit_success;
+}
+
+int run(const Arguments& arguments)
+{
+    SourcedMesh sourced = load(*arguments.source);
+    return with_names_of(sourced, [&] { return run(arguments, sourced); });
 }
 
 } // namespace
@@ -52,9 +58,15 @@ void add_sort_command(CLI::App& app, Command& chosen)
     command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
         ->capture_default_str();
     add_sorter_options(*command, arguments->sorter_options);
-    command->add_option("-o,--output", arguments->output, "Where to: .npy, or text with a cell a line")->required();
-    command->add_option("--map", arguments->map,
-                        "Also write, for each tetrahedron, the cell of the mesh it is part of");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Where to: .npy, or text with a cell per line. Cells have the numbers that they have in the file, "
+                     "counted from 0 over all that it lists; where cells were cut into parts, the parts are "
+                     "numbered from 0, cell by cell")
+        ->required();
+    command->add_option(
+        "--map", arguments->map,
+        "Also write, for each cell or part in turn, the number in the file of the cell it is (part of)");
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

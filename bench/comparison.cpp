@@ -4,6 +4,7 @@
 #include "bench/image_file.h"
 #include "bench/views.h"
 #include "checking/order_checker.h"
+#include "files/cell_numbers.h"
 #include "files/read_mesh.h"
 #include "graphics/graphics_error.h"
 #include "scene/error.h"
@@ -15,7 +16,10 @@
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
+#include <new>
 #include <numeric>
+#include <set>
+#include <string_view>
 
 namespace visorder::bench {
 
@@ -26,24 +30,52 @@ namespace {
 using Progress = std::function<void(const std::string&)>;
 
 struct Source {
-    std::string name;
-    std::function<Mesh(std::vector<std::string>& notes)> mesh;
+    std::string name;  // unlike that of any other
+    std::string title; // the same as a part of a file's name
+    std::function<MeshFile()> read;
 };
+
+// The file's own name, or its whole path where another file has the same.
+std::string distinct_name(const ComparisonOptions& options, const std::filesystem::path& file)
+{
+    const bool alone = std::none_of(options.files.begin(), options.files.end(), [&](const auto& other) {
+        return other != file && other.filename() == file.filename();
+    });
+    return alone ? file.filename().string() : file.string();
+}
 
 std::vector<Source> sources_of(const ComparisonOptions& options)
 {
     std::vector<Source> sources;
     for (const std::filesystem::path& file : options.files) {
-        const ReadOptions read{.scalar = options.scalar, .weld = options.weld, .time = options.time};
-        sources.push_back({file.filename().string(), [file, read](std::vector<std::string>& notes) {
-                               MeshFile result = read_mesh(file, read);
-                               notes = std::move(result.notes);
-                               return std::move(result.mesh);
-                           }});
+        const ReadOptions read{.scalar = options.scalar,
+                               .weld = options.weld,
+                               .weld_tolerance = options.weld_tolerance,
+                               .time = options.time};
+        sources.push_back({distinct_name(options, file), "", [file, read] { return read_mesh(file, read); }});
     }
     for (const std::string& specification : options.generated)
-        sources.push_back(
-            {specification, [specification](std::vector<std::string>&) { return generate(specification); }});
+        sources.push_back({specification, "", [specification] {
+                               MeshFile result;
+                               result.mesh = generate(specification);
+                               return result;
+                           }});
+    const auto number_equals = [&](std::string Source::*member, const char* pattern) {
+        std::set<std::string> taken;
+        for (Source& source : sources) {
+            const std::string first = source.*member;
+            for (int number = 2; !taken.insert(source.*member).second; ++number)
+                source.*member = fmt::format(fmt::runtime(pattern), first, number);
+        }
+    };
+    number_equals(&Source::name, "{} ({})");
+    for (Source& source : sources) {
+        source.title = source.name;
+        for (char& letter : source.title)
+            if (std::string_view(":/() ").find(letter) != std::string_view::npos)
+                letter = '-';
+    }
+    number_equals(&Source::title, "{}-{}");
     return sources;
 }
 
@@ -80,7 +112,8 @@ Candidate too_large_for(const SorterInfo& info)
     return {&info, {}, nullptr, 0, fmt::format("slow on more than {} cells; named in --sorters, it runs", info.up_to)};
 }
 
-Candidate make_candidate(const SorterInfo& info, const Scene& scene, const SorterOptions& options)
+Candidate make_candidate(const SorterInfo& info, const Scene& scene, const CellNumbers& cells,
+                         const SorterOptions& options)
 {
     Candidate candidate{&info, {info.structures.begin(), info.structures.end()}, nullptr, 0, {}};
     if (std::string_view(info.name) == "auto")
@@ -91,6 +124,9 @@ Candidate make_candidate(const SorterInfo& info, const Scene& scene, const Sorte
     Stopwatch watch;
     try {
         candidate.sorter = make_sorter(info.name, scene, options);
+    } catch (const CellError& error) {
+        candidate.skipped = cells.message(error);
+        return candidate;
     } catch (const InputError& error) {
         candidate.skipped = error.what();
         return candidate;
@@ -186,14 +222,13 @@ public:
     }
 
     // SCENE-VIEW-SORTER.png, and how it differs, amplified, where it does.
-    void write(const std::filesystem::path& folder) const
+    void write(const std::filesystem::path& folder, const std::string& scene) const
     {
         std::filesystem::create_directories(folder);
         for (const Drawn& drawn : drawn_) {
             if (drawn.run == nullptr)
                 continue;
-            std::string title = fmt::format("{}-view{}-{}", drawn.run->scene, drawn.run->view, drawn.run->sorter);
-            std::replace(title.begin(), title.end(), ':', '-');
+            const std::string title = fmt::format("{}-view{}-{}", scene, drawn.run->view, drawn.run->sorter);
             write_png(drawn.image, folder / (title + ".png"));
             if (drawn.run->image_max.value_or(0) > 0)
                 write_png(difference_image(drawn.image, drawn_[exact_].image, difference_amplification),
@@ -216,14 +251,20 @@ private:
     Order exact_order_;
 };
 
-void compare_on(const Source& source, const ComparisonOptions& options, const Progress& progress, Comparison& result)
+void compare_on(const Source& source, const ComparisonOptions& options, const Progress& progress, CellNumbers& cells,
+                Comparison& result)
 {
     progress(fmt::format("{}: making the scene", source.name));
     SceneResult description{source.name, 0, 0, false, false, 0, {}, false, {}};
-    Mesh mesh = source.mesh(description.notes);
-    if (options.subdivide)
-        mesh = subdivide(mesh).mesh;
-    const Scene scene(std::move(mesh));
+    MeshFile file = source.read();
+    description.notes = std::move(file.notes);
+    cells = cell_numbers(file);
+    if (options.subdivide) {
+        Subdivision subdivision = subdivide(file.mesh);
+        cells = cell_numbers(file, subdivision.cell_of);
+        file.mesh = std::move(subdivision.mesh);
+    }
+    const Scene scene(std::move(file.mesh));
     auto views = random_views(scene, options.views, options.seed, options.size);
     if (options.hard_views)
         for (NamedView& view : hard_views(scene, options.size))
@@ -236,7 +277,7 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
             progress(fmt::format("{}: preparing {}", source.name, info.name));
             candidates.push_back(options.sorters.empty() && scene.cell_count() > info.up_to
                                      ? too_large_for(info)
-                                     : make_candidate(info, scene, options.sorter_options));
+                                     : make_candidate(info, scene, cells, options.sorter_options));
         }
 
     progress(fmt::format("{}: traits", source.name));
@@ -285,7 +326,7 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
         view_frames.draw_exact(*frames, scene, views[v].view);
         view_frames.compare();
         if (!options.images.empty())
-            view_frames.write(options.images);
+            view_frames.write(options.images, source.title);
         if (v == 0 && view_frames.exact_order() != nullptr)
             description.integrators = frames->integrators(views[v].view, *view_frames.exact_order());
     }
@@ -318,8 +359,20 @@ Comparison compare(const ComparisonOptions& options, const Progress& progress)
 {
     require_known(options.sorters);
     Comparison result;
-    for (const Source& source : sources_of(options))
-        compare_on(source, options, progress, result);
+    for (const Source& source : sources_of(options)) {
+        CellNumbers cells({}, {});
+        try {
+            compare_on(source, options, progress, cells, result);
+        } catch (const CellError& error) {
+            result.refused.push_back({source.name, fmt::format("{}: {}", source.name, cells.message(error))});
+        } catch (const InputError& error) {
+            const std::string what = error.what();
+            const bool names_it = what.find(source.name) != std::string::npos;
+            result.refused.push_back({source.name, names_it ? what : fmt::format("{}: {}", source.name, what)});
+        } catch (const std::bad_alloc&) {
+            result.refused.push_back({source.name, fmt::format("{}: not enough memory", source.name)});
+        }
+    }
     return result;
 }
 

@@ -26,7 +26,8 @@ struct ComparisonOptions {
     std::uint64_t seed = 1;                   ///< of the views
     int repeats = 5;                          ///< timed sorts a view, of which the median counts
     bool subdivide = true;                    ///< zoo cells into tetrahedra
-    bool weld = false;                        ///< points of files with exactly equal coordinates
+    bool weld = false;                        ///< points of files with exactly equal coordinates, or
+    double weld_tolerance = 0;                ///< within this distance of each other
     std::string scalar;                       ///< of files; empty: the format's default
     std::string time;                         ///< of files, as in ReadOptions
     SorterOptions sorter_options;
@@ -73,17 +74,25 @@ struct RunResult {
     bool failed() const { return skipped.empty() && guarantee != Guarantee::approximate && violations > 0; }
 };
 
+/// A file or generated scene that could not be compared on.
+struct Refusal {
+    std::string source;
+    std::string reason; ///< one line, which names the source
+};
+
 struct Comparison {
     std::vector<SceneResult> scenes;
-    std::vector<RunResult> runs; ///< scene by scene, sorter by sorter, view by view
-    std::string gl_renderer;     ///< that drew frames; empty if none did
+    std::vector<RunResult> runs;  ///< scene by scene, sorter by sorter, view by view
+    std::string gl_renderer;      ///< that drew frames; empty if none did
+    std::vector<Refusal> refused; ///< in the order of the sources
 
     bool failed() const;
 };
 
 /// Runs every sorter on every scene from every view: times it, and holds its orders against all relations. Scenes are
 /// made one after another and released. Frames are drawn apart from the timed sorts. `progress` is told in a few words
-/// what is being done. Throws InputError for a file, a scene or a sorter that cannot be had.
+/// what is being done. A file or a scene that cannot be taken is among `refused`, and the others are compared on
+/// nevertheless. Throws InputError for a sorter that there is not.
 Comparison compare(const ComparisonOptions& options, const std::function<void(const std::string&)>& progress);
 
 } // namespace visorder::bench

@@ -122,7 +122,8 @@ double tie_distance(const Mesh& mesh)
     return 0x1p-22 * glm::distance(box.min, box.max);
 }
 
-LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers)
+LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers,
+                        const TriangleName& name)
 {
     constexpr std::size_t most_witnesses = 5;
     const double tie = tie_distance(mesh);
@@ -146,7 +147,7 @@ LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, con
         for (std::size_t b = begin; b < end; ++b) {
             const CellId back = met[b].triangle;
             if (layers.layer[back] == 0)
-                witness(result.missed, met[b], fmt::format("{} covers it, but has no layer", back));
+                witness(result.missed, met[b], fmt::format("{} covers it, but has no layer", name(back)));
             for (std::size_t f = begin; f < b; ++f) {
                 const CellId front = met[f].triangle;
                 if (met[b].distance - met[f].distance <= tie)
@@ -155,7 +156,7 @@ LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, con
                     ++result.in_cycles;
                 else if (++result.pairs; layers.layer[front] >= layers.layer[back])
                     witness(result.wrong, met[b],
-                            fmt::format("{} lies in front of {}, by {}, with layers {} and {}", front, back,
+                            fmt::format("{} lies in front of {}, by {}, with layers {} and {}", name(front), name(back),
                                         met[b].distance - met[f].distance, layers.layer[front], layers.layer[back]));
             }
         }

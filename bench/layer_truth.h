@@ -39,8 +39,13 @@ struct LayerCheck {
     std::vector<std::string> witnesses; ///< of the first few `wrong` and `missed`
 };
 
+/// What a triangle is called in a witness.
+using TriangleName = std::function<std::string(CellId)>;
+
 /// Holds `layers`, whose items are the cells of a mesh of triangles, against the true fragments at every sample point
 /// of the image.
-LayerCheck check_layers(const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers);
+LayerCheck check_layers(
+    const Mesh& mesh, const View& view, glm::ivec2 size, const Layers& layers,
+    const TriangleName& name = [](CellId triangle) { return "triangle " + std::to_string(triangle); });
 
 } // namespace visorder::bench

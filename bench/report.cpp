@@ -83,7 +83,8 @@ std::string traits_of(const SceneResult& scene)
     if (scene.delaunay)
         text += ", Delaunay";
     if (scene.overlapping_pairs > 0)
-        text += fmt::format(", {} pairs of cells overlap", with_commas(scene.overlapping_pairs));
+        text += fmt::format(", {} pairs of cells overlap, for which no order is exact",
+                            with_commas(scene.overlapping_pairs));
     return text;
 }
 
@@ -235,6 +236,11 @@ std::string json(const Comparison& comparison, const Machine& machine)
                 entry["statistics"][statistic.name] = statistic.value;
         }
         document["runs"].push_back(std::move(entry));
+    }
+    if (!comparison.refused.empty()) {
+        document["refused"] = Json::array();
+        for (const Refusal& refusal : comparison.refused)
+            document["refused"].push_back({{"source", refusal.source}, {"reason", refusal.reason}});
     }
     return document.dump(2) + "\n";
 }

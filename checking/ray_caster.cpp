@@ -29,7 +29,7 @@ void check(const Scene& scene)
         for (CellId cell = 0; cell < scene.cell_count(); ++cell)
             if (mesh.shapes[cell] != CellShape::tetrahedron)
                 lowest = std::min(lowest, scene.caller_cells()[cell]);
-        throw InputError(fmt::format("cell {}: not a tetrahedron; subdivide the mesh first", lowest));
+        throw CellError(lowest, "not a tetrahedron; subdivide the mesh first");
     }
     if (mesh.scalars.empty())
         throw InputError("the mesh has no scalars to colour it by");

@@ -1,5 +1,6 @@
 #include "files/read_mesh.h"
 
+#include "files/cell_numbers.h"
 #include "files/file_content.h"
 #include "files/gmsh_file.h"
 #include "files/medit_file.h"
@@ -128,8 +129,14 @@ FileGrid read_grid(const std::filesystem::path& file, const NamedFormat& named, 
 
 void check(const std::filesystem::path& file, const MeshFile& read)
 {
+    const std::size_t numbers = read.file_cells.size();
+    if ((numbers != 0 && numbers != read.mesh.cell_count()) ||
+        !std::is_sorted(read.file_cells.begin(), read.file_cells.end()))
+        fail(file, fmt::format("{} numbers of cells do not fit {} cells", numbers, read.mesh.cell_count()));
     try {
         validate(read.mesh);
+    } catch (const CellError& error) {
+        fail(file, cell_numbers(read).message(error));
     } catch (const InputError& error) {
         fail(file, error.what());
     }

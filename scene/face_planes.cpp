@@ -43,8 +43,9 @@ void require_planar(const Scene& scene, CellId cell, int face, const FaceLoop& l
     const auto& points = scene.mesh().points;
     const PointId* v = loop.begin();
     if (side_of_plane(points[v[0]], points[v[1]], points[v[2]], points[v[3]]) != Sign::zero)
-        throw InputError(fmt::format("cell {}: face {} of this {} is not planar; subdivide the mesh into tetrahedra",
-                                     scene.caller_cells()[cell], face, name(scene.mesh().shapes[cell])));
+        throw CellError(scene.caller_cells()[cell],
+                        fmt::format("face {} of this {} is not planar; subdivide the mesh into tetrahedra", face,
+                                    name(scene.mesh().shapes[cell])));
 }
 
 void fill_block(const Scene& scene, CellId cell, FacePlanes& planes)

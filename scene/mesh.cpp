@@ -7,10 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 #include <string>
+#include <unordered_map>
 
 namespace visorder {
 
@@ -26,23 +29,23 @@ std::string fault_of_cell(const Mesh& mesh, std::size_t i)
 {
     const CellShape shape = mesh.shapes[i];
     if (shape > CellShape::hexahedron)
-        return fmt::format("cell {}: unknown shape {}", i, static_cast<int>(shape));
+        return fmt::format("unknown shape {}", static_cast<int>(shape));
     if ((shape == CellShape::triangle) != (mesh.shapes.front() == CellShape::triangle))
-        return fmt::format("cell {}: a {} in a mesh that began with a {}: triangles and solids do not mix", i,
-                           name(shape), name(mesh.shapes.front()));
+        return fmt::format("a {} in a mesh that began with a {}: triangles and solids do not mix", name(shape),
+                           name(mesh.shapes.front()));
 
     const std::uint32_t begin = mesh.offsets[i];
     const std::uint32_t end = mesh.offsets[i + 1];
     if (end < begin)
-        return fmt::format("cell {}: offsets fall from {} to {}", i, begin, end);
+        return fmt::format("offsets fall from {} to {}", begin, end);
     if (end - begin != static_cast<std::uint32_t>(vertex_count(shape)))
-        return fmt::format("cell {}: a {} has {} vertices, not {}", i, name(shape), vertex_count(shape), end - begin);
+        return fmt::format("a {} has {} vertices, not {}", name(shape), vertex_count(shape), end - begin);
     if (end > mesh.vertices.size())
-        return fmt::format("cell {}: offset {} is beyond the {} vertices", i, end, mesh.vertices.size());
+        return fmt::format("offset {} is beyond the {} vertices", end, mesh.vertices.size());
 
     for (const PointId point : mesh.cell(static_cast<CellId>(i)))
         if (point >= mesh.points.size())
-            return fmt::format("cell {}: point {} is out of range, there are {}", i, point, mesh.points.size());
+            return fmt::format("point {} is out of range, there are {}", point, mesh.points.size());
     return {};
 }
 
@@ -55,8 +58,8 @@ std::string fault_of_point(const Mesh& mesh, std::size_t i)
 }
 
 /// Throws the fault of the lowest of `count` items that has one, however the work is spread over threads.
-template <class FaultOf>
-void throw_first_fault(std::size_t count, const FaultOf& fault_of)
+template <class FaultOf, class Throw>
+void throw_first_fault(std::size_t count, const FaultOf& fault_of, const Throw& throw_fault)
 {
     const std::size_t first = oneapi::tbb::parallel_reduce(
         Range(0, count, 4096), count,
@@ -68,7 +71,7 @@ void throw_first_fault(std::size_t count, const FaultOf& fault_of)
         },
         [](std::size_t a, std::size_t b) { return std::min(a, b); });
     if (first < count)
-        throw InputError(fault_of(first));
+        throw_fault(first, fault_of(first));
 }
 
 void check_point_arrays(const Mesh& mesh)
@@ -124,6 +127,62 @@ LargeArray<PointId> lowest_equal_points(const std::vector<glm::dvec3>& points)
     return lowest;
 }
 
+// For each point the first one kept that lies within the tolerance, or itself, which is then kept.
+LargeArray<PointId> first_near_points(const std::vector<glm::dvec3>& points, double tolerance)
+{
+    // Points kept, by the cubes of a grid. Whatever is within the tolerance lies in the same cube or one beside it. The
+    // numbers of cubes are doubles: far away, where they are no longer apart, a cube is tried more than once.
+    std::unordered_map<std::uint64_t, std::vector<PointId>> kept;
+    const auto cube_of = [&](const glm::dvec3& p) { return glm::floor(p / tolerance); };
+    LargeArray<PointId> first(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 cube = cube_of(points[i]);
+        PointId found = static_cast<PointId>(i);
+        for (int beside = 0; beside < 27; ++beside) {
+            const glm::dvec3 offset(beside % 3 - 1, beside / 3 % 3 - 1, beside / 9 - 1);
+            const auto at = kept.find(hash(cube + offset));
+            if (at == kept.end())
+                continue;
+            for (const PointId candidate : at->second)
+                if (candidate < found && glm::distance(points[candidate], points[i]) <= tolerance)
+                    found = candidate;
+        }
+        first[i] = found;
+        if (found == i)
+            kept[hash(cube)].push_back(found);
+    }
+    return first;
+}
+
+// Joins each point with the one that `renumbered` has for it, which comes no later and is kept. Returns how many went.
+std::size_t join(Mesh& mesh, LargeArray<PointId> renumbered)
+{
+    // In ascending order the point that a set keeps has been renumbered before the others of the set look it up.
+    const std::size_t before = mesh.points.size();
+    PointId kept = 0;
+    for (std::size_t i = 0; i < before; ++i) {
+        if (renumbered[i] != i) {
+            renumbered[i] = renumbered[renumbered[i]];
+            continue;
+        }
+        mesh.points[kept] = mesh.points[i];
+        if (!mesh.scalars.empty())
+            mesh.scalars[kept] = mesh.scalars[i];
+        renumbered[i] = kept++;
+    }
+    mesh.points.resize(kept);
+    if (!mesh.scalars.empty())
+        mesh.scalars.resize(kept);
+
+    oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), 4096), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            // An index out of range stays out of range, for `validate` to name.
+            if (mesh.vertices[i] < before)
+                mesh.vertices[i] = renumbered[mesh.vertices[i]];
+    });
+    return before - kept;
+}
+
 } // namespace
 
 void Mesh::add(CellShape shape, std::span<const std::uint32_t> cell_vertices)
@@ -148,41 +207,29 @@ void validate(const Mesh& mesh)
     if (mesh.offsets.front() != 0)
         throw InputError(fmt::format("cell 0: the first offset is {}, not 0", mesh.offsets.front()));
     check_point_arrays(mesh);
-    throw_first_fault(cells, [&](std::size_t i) { return fault_of_cell(mesh, i); });
+    throw_first_fault(
+        cells, [&](std::size_t i) { return fault_of_cell(mesh, i); },
+        [](std::size_t i, const std::string& fault) { throw CellError(i, fault); });
     if (mesh.offsets.back() != mesh.vertices.size())
-        throw InputError(fmt::format("cell {}: the last offset is {}, but there are {} vertices", cells - 1,
-                                     mesh.offsets.back(), mesh.vertices.size()));
-    throw_first_fault(mesh.points.size(), [&](std::size_t i) { return fault_of_point(mesh, i); });
+        throw CellError(cells - 1, fmt::format("the last offset is {}, but there are {} vertices", mesh.offsets.back(),
+                                               mesh.vertices.size()));
+    throw_first_fault(
+        mesh.points.size(), [&](std::size_t i) { return fault_of_point(mesh, i); },
+        [](std::size_t, const std::string& fault) { throw InputError(fault); });
 }
 
 std::size_t weld(Mesh& mesh)
 {
     check_point_arrays(mesh);
-    // In ascending order the point that a set keeps has been renumbered before the others of the set look it up.
-    LargeArray<PointId> renumbered = lowest_equal_points(mesh.points);
-    const std::size_t before = mesh.points.size();
-    PointId kept = 0;
-    for (std::size_t i = 0; i < before; ++i) {
-        if (renumbered[i] != i) {
-            renumbered[i] = renumbered[renumbered[i]];
-            continue;
-        }
-        mesh.points[kept] = mesh.points[i];
-        if (!mesh.scalars.empty())
-            mesh.scalars[kept] = mesh.scalars[i];
-        renumbered[i] = kept++;
-    }
-    mesh.points.resize(kept);
-    if (!mesh.scalars.empty())
-        mesh.scalars.resize(kept);
+    return join(mesh, lowest_equal_points(mesh.points));
+}
 
-    oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), 4096), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            // An index out of range stays out of range, for `validate` to name.
-            if (mesh.vertices[i] < before)
-                mesh.vertices[i] = renumbered[mesh.vertices[i]];
-    });
-    return before - kept;
+std::size_t weld(Mesh& mesh, double tolerance)
+{
+    if (!(tolerance >= 0 && std::isfinite(tolerance)))
+        throw InputError(fmt::format("points cannot be joined within a distance of {}", tolerance));
+    const std::size_t equal = weld(mesh);
+    return tolerance > 0 ? equal + join(mesh, first_near_points(mesh.points, tolerance)) : equal;
 }
 
 } // namespace visorder

@@ -1,5 +1,6 @@
 #include "files/time_step.h"
 #include "scene/error.h"
+#include "vtk/legacy_check.h"
 #include "vtk/message_capture.h"
 #include "vtk/vtk_file.h"
 
@@ -27,6 +28,7 @@ VtkFile read_legacy_file(const std::filesystem::path& path, const std::string& t
     if (!has_signature(path))
         throw InputError(fmt::format("{}: cannot be read: not a legacy VTK file", path.string()));
 
+    check_legacy_file(path);
     const vtkNew<vtkDataSetReader> reader;
     reader->SetFileName(path.c_str());
     reader->ReadAllScalarsOn();

@@ -3,6 +3,7 @@
 #include "files/time_step.h"
 #include "scene/error.h"
 #include "vtk/message_capture.h"
+#include "vtk/xml_check.h"
 #include "vtk/xml_piece_arrays.h"
 
 #include <algorithm>
@@ -127,6 +128,7 @@ bool is_xml_data_set(const std::string& type)
 
 VtkFile read_xml_data_set(const std::filesystem::path& path, const std::string& type, const std::string& time)
 {
+    check_xml_file(path);
     const vtkSmartPointer<vtkXMLReader> reader = reader_of(type);
     reader->SetFileName(path.c_str());
     VtkFile file{path, {}, false, {}};

@@ -4,11 +4,48 @@
 #include "tests/apps/run_tool.h"
 #include "tests/temporary_folder.h"
 
+#include <algorithm>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <initializer_list>
+#include <iterator>
+#include <numeric>
 #include <string>
+#include <vector>
 
 namespace visorder::tests {
 namespace {
+
+std::vector<std::uint64_t> sorted_numbers(const std::filesystem::path& file)
+{
+    std::ifstream in(file);
+    std::vector<std::uint64_t> numbers{std::istream_iterator<std::uint64_t>(in), {}};
+    std::sort(numbers.begin(), numbers.end());
+    return numbers;
+}
+
+void expect_says(const Outcome& outcome, int code, std::initializer_list<const char*> parts)
+{
+    EXPECT_EQ(outcome.code, code) << outcome.output;
+    for (const char* part : parts)
+        EXPECT_NE(outcome.output.find(part), std::string::npos) << part << "\n" << outcome.output;
+}
+
+/// A vertex, a tetrahedron, a line and a triangle beside it, and another tetrahedron below.
+constexpr const char* tetrahedra_among_others =
+    "# vtk DataFile Version 3.0\namong others\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+    "POINTS 5 double\n0 0 0  1 0 0  0 1 0  0 0 1  0 0 -1\n"
+    "CELLS 5 19\n1 0\n4 0 1 2 3\n2 0 1\n3 0 1 2\n4 0 2 1 4\nCELL_TYPES 5\n1\n10\n3\n5\n10\n";
+
+/// A line, a unit cube, of which `top` lifts a corner, and a tetrahedron beside it.
+std::string cube_among_others(double top)
+{
+    return "# vtk DataFile Version 3.0\namong others\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+           "POINTS 9 double\n0 0 0  1 0 0  1 1 0  0 1 0  0 0 1  1 0 1  1 1 " +
+           std::to_string(top) +
+           "  0 1 1  2 0 0\n"
+           "CELLS 3 17\n2 0 1\n8 0 1 2 3 4 5 6 7\n4 1 8 2 5\nCELL_TYPES 3\n3\n12\n10\n";
+}
 
 TEST(ToolOnMeshFiles, ReadsPointsWithDataThatNoCellUses)
 {
@@ -22,6 +59,82 @@ TEST(ToolOnMeshFiles, ReadsPointsWithDataThatNoCellUses)
     EXPECT_EQ(inspected.code, 0) << inspected.output;
     for (const char* part : {"2 points that no cell uses left out", "points          4\n", "s from 1 to 4"})
         EXPECT_NE(inspected.output.find(part), std::string::npos) << part << "\n" << inspected.output;
+}
+
+TEST(ToolOnMeshFiles, CellsHaveTheFilesNumbers)
+{
+    const TemporaryFolder folder;
+    const std::string mesh = folder.write("mesh.vtk", tetrahedra_among_others).string();
+    const std::vector<std::uint64_t> kept{1, 4};
+    for (const char* whole : {"", " --whole"})
+        for (const char* name : {"order.txt", "order.npy"}) {
+            const std::string order = (folder / name).string(), map = (folder / "map.txt").string();
+            SCOPED_TRACE(order + whole);
+            const Outcome sorted = run("sort " + mesh + whole + " --direction 0,0,1 -o " + order + " --map " + map);
+            ASSERT_EQ(sorted.code, 0) << sorted.output;
+            EXPECT_EQ(sorted_numbers(map), kept);
+            if (order.ends_with(".txt")) {
+                EXPECT_EQ(sorted_numbers(order), kept);
+                EXPECT_EQ(content_of(order), "4\n1\n");
+            }
+            expect_says(run("check " + mesh + whole + " " + order + " --direction=0,0,1"), 0, {"0 of 1 relations"});
+            expect_says(run("check " + mesh + whole + " " + order + " --direction=0,0,-1"), 1,
+                        {"cell 4 occludes cell 1 but is painted before it"});
+        }
+    const std::string order = (folder / "order.txt").string();
+    folder.write("order.txt", "1\n0\n");
+    expect_one_line_and_code_2("check " + mesh + " " + order + " --direction=0,0,1",
+                               order + ": the order lists cell 0");
+    folder.write("order.txt", "4\n4\n");
+    expect_one_line_and_code_2("check " + mesh + " " + order + " --direction=0,0,1", "cell 4 twice");
+    folder.write("order.txt", "4\n");
+    expect_one_line_and_code_2("check " + mesh + " " + order + " --direction=0,0,1", "leaves out cell 1");
+}
+
+TEST(ToolOnMeshFiles, PartsHaveAMapToTheFilesNumbers)
+{
+    const TemporaryFolder folder;
+    const std::string mesh = folder.write("mesh.vtk", cube_among_others(1)).string();
+    const std::string order = (folder / "order.txt").string(), map = (folder / "map.txt").string();
+    const Outcome sorted = run("sort " + mesh + " --direction 1,0,0 -o " + order + " --map " + map);
+    expect_says(sorted, 0, {"--map FILE tells of which each is part"});
+    const std::vector<std::uint64_t> cells = sorted_numbers(map);
+    ASSERT_GE(cells.size(), 6u);
+    for (std::size_t part = 0; part < cells.size(); ++part)
+        EXPECT_EQ(cells[part], part + 1 < cells.size() ? 1u : 2u);
+    std::vector<std::uint64_t> parts(cells.size());
+    std::iota(parts.begin(), parts.end(), 0u);
+    EXPECT_EQ(sorted_numbers(order), parts);
+    expect_says(run("check " + mesh + " " + order + " --direction=1,0,0"), 0, {"0 of "});
+    expect_says(run("check " + mesh + " " + order + " --direction=-1,0,0"), 1,
+                {"part ", " (of cell 1) occludes part "});
+
+    expect_says(run("sort " + mesh + " --whole --direction 1,0,0 -o " + order + " --map " + map), 0, {"2 cells"});
+    EXPECT_EQ(content_of(order), "1\n2\n");
+    EXPECT_EQ(content_of(map), "1\n2\n");
+}
+
+TEST(ToolOnMeshFiles, FaultsNameTheFileAndItsCell)
+{
+    const TemporaryFolder folder;
+    const std::string mesh = folder.write("warped.vtk", cube_among_others(1.5)).string();
+    const std::string order = (folder / "order.txt").string();
+    expect_one_line_and_code_2("sort " + mesh + " --whole --sorter mpvo --direction 1,0,0 -o " + order,
+                               "warped.vtk: cell 1: face ");
+    expect_one_line_and_code_2("compare " + mesh + " --whole --sorters mpvo --views 1 --frames 0",
+                               "warped.vtk: cell 1: a face is not planar");
+}
+
+TEST(ToolOnMeshFiles, TrianglesOfPolygonsHaveAMapToThem)
+{
+    const TemporaryFolder folder;
+    const std::string mesh =
+        folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nf 1 2 3 4\nf 1 2 4\n").string();
+    const std::string order = (folder / "order.txt").string(), map = (folder / "map.txt").string();
+    expect_says(run("sort " + mesh + " --sorter newell --direction 0,0,1 -o " + order + " --map " + map), 0,
+                {"cells are parts of the file's cells"});
+    EXPECT_EQ(content_of(map), "1\n1\n2\n");
+    EXPECT_EQ(sorted_numbers(order), (std::vector<std::uint64_t>{0, 1, 2}));
 }
 
 } // namespace

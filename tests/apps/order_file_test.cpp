@@ -36,7 +36,8 @@ TEST(OrderFile, ReadsWhatItWrites)
 {
     const TemporaryFolder folder;
     for (const char* name : {"order.txt", "order.npy"})
-        for (const std::vector<CellId>& cells : {std::vector<CellId>{}, {7}, {3, 0, 4294967295u, 1}}) {
+        for (const std::vector<std::uint64_t>& cells :
+             {std::vector<std::uint64_t>{}, {7}, {3, 0, 4294967295u, 1}, {3, 4294967296u}}) {
             write_order(folder / name, cells);
             EXPECT_EQ(read_order(folder / name), cells) << name;
         }
@@ -45,7 +46,7 @@ TEST(OrderFile, ReadsWhatItWrites)
 TEST(OrderFile, AlignsTheArrayAsNumPyDoes)
 {
     const TemporaryFolder folder;
-    write_order(folder / "order.npy", std::vector<CellId>{1, 2, 3});
+    write_order(folder / "order.npy", std::vector<std::uint64_t>{1, 2, 3});
     EXPECT_EQ((std::filesystem::file_size(folder / "order.npy") - 12) % 64, 0u);
 }
 
@@ -53,13 +54,13 @@ TEST(OrderFile, ReadsIntegersOfAnyKind)
 {
     const TemporaryFolder folder;
     write(folder / "a.npy", npy("<i8", "(2,)", std::string("\x05\0\0\0\0\0\0\0\x01\x02\0\0\0\0\0\0", 16)));
-    EXPECT_EQ(read_order(folder / "a.npy"), (std::vector<CellId>{5, 513}));
+    EXPECT_EQ(read_order(folder / "a.npy"), (std::vector<std::uint64_t>{5, 513}));
     write(folder / "b.npy", npy(">u2", "(2,)", std::string("\0\x05\x02\x01", 4)));
-    EXPECT_EQ(read_order(folder / "b.npy"), (std::vector<CellId>{5, 513}));
+    EXPECT_EQ(read_order(folder / "b.npy"), (std::vector<std::uint64_t>{5, 513}));
     write(folder / "c.npy", npy("|u1", "(2,)", "\x05\x07"));
-    EXPECT_EQ(read_order(folder / "c.npy"), (std::vector<CellId>{5, 7}));
+    EXPECT_EQ(read_order(folder / "c.npy"), (std::vector<std::uint64_t>{5, 7}));
     write(folder / "d.txt", "5\r\n513\r\n");
-    EXPECT_EQ(read_order(folder / "d.txt"), (std::vector<CellId>{5, 513}));
+    EXPECT_EQ(read_order(folder / "d.txt"), (std::vector<std::uint64_t>{5, 513}));
 }
 
 TEST(OrderFile, SaysWhatIsWrongWithAFile)
