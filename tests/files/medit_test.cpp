@@ -79,3 +79,26 @@ TEST(Medit, NamesTheLineAtFault)
     EXPECT_EQ(error_of(head + "End\n"), "there are no cells in it");
     EXPECT_THAT(reading_error(folder.write("mesh.meshb", "abc")), HasSubstr("a MEDIT mesh in binary is not read"));
 }
+
+TEST(Medit, ReadsRealMeshes)
+{
+    struct Model {
+        const char* name;
+        std::size_t points;
+        CellShape shape;
+        std::size_t cells;
+        std::size_t inverted;
+    };
+    for (const auto& [name, points, shape, cells, inverted] :
+         {Model{"elbow2.mesh", 1823, CellShape::tetrahedron, 8161, 8161},
+          Model{"cino_ellipsoid.mesh", 7293, CellShape::hexahedron, 6816, 0}}) {
+        const auto path = std::filesystem::path(VISORDER_DATA_DIR) / "volumes" / name;
+        if (!std::filesystem::exists(path))
+            GTEST_SKIP() << "needs " << path;
+        const MeshFile file = read_mesh(path);
+        EXPECT_EQ(file.mesh.points.size(), points) << name;
+        EXPECT_THAT(file.mesh.shapes, SizeIs(cells)) << name;
+        EXPECT_THAT(file.mesh.shapes, testing::Each(shape)) << name;
+        EXPECT_EQ(Scene(file.mesh).traits().inverted_cells, inverted) << name;
+    }
+}
