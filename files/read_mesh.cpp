@@ -16,10 +16,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
+#include <system_error>
+#include <unistd.h>
 
 namespace visorder {
 
@@ -110,7 +114,7 @@ NamedFormat checked_format(const std::filesystem::path& file)
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
     if (!std::ifstream(file))
         fail(file, "cannot be opened");
-    if (is_compressed && !format->read_content)
+    if (is_compressed && format->names_others)
         fail(file, fmt::format("files that end in {} are read only if they are not compressed", format->ending));
     return {*format, is_compressed};
 }
@@ -138,11 +142,55 @@ void check(const std::filesystem::path& file, const MeshFile& read)
     }
 }
 
+/// A file that is there as long as this is.
+class TemporaryFile {
+public:
+    TemporaryFile(const std::string& ending, std::string_view content)
+    {
+        std::string name = (std::filesystem::temp_directory_path() / ("visorder-XXXXXX" + ending)).string();
+        const int descriptor = mkstemps(name.data(), static_cast<int>(ending.size()));
+        if (descriptor < 0)
+            throw std::system_error(errno, std::generic_category(), name);
+        close(descriptor);
+        path_ = name;
+        std::ofstream(path_, std::ios::binary) << content;
+    }
+    ~TemporaryFile()
+    {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// Reads a compressed file of a format whose reader opens files itself.
+MeshFile read_decompressed_copy(const std::filesystem::path& file, const MeshFormat& format, const ReadOptions& options)
+{
+    const TemporaryFile copy(format.ending, decompressed(file, content_of_file(file)));
+    try {
+        return read_mesh(copy.path(), options);
+    } catch (const InputError& error) {
+        std::string what = error.what();
+        const std::string name = copy.path().string();
+        for (std::size_t at = what.find(name); at != std::string::npos; at = what.find(name))
+            what.replace(at, name.size(), file.string());
+        throw InputError(what);
+    }
+}
+
 } // namespace
 
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options)
 {
     const NamedFormat named = checked_format(file);
+    if (named.is_compressed && !named.format.read_content)
+        return read_decompressed_copy(file, named.format, options);
     if (named.format.isolated && options.isolated) {
         MeshFile result = read_in_own_process(file, options);
         check(file, result); // it comes from a process that damage may have upset
@@ -150,9 +198,6 @@ MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options
     }
 
     MeshFile result = mesh_of(read_grid(file, named, options), options);
-    if (options.weld && options.weld_tolerance > 0)
-        if (const std::size_t joined = weld(result.mesh, options.weld_tolerance); joined > 0)
-            result.notes.push_back(fmt::format("{} points joined with others near them", joined));
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
     if (not_finite > 0)
