@@ -29,6 +29,7 @@ struct ComparisonOptions {
     bool weld = false;                        ///< points of files with exactly equal coordinates, or
     double weld_tolerance = 0;                ///< within this distance of each other
     std::string scalar;                       ///< of files; empty: the format's default
+    std::string time;                         ///< of files, as in ReadOptions
     SorterOptions sorter_options;
     int frames = 1; ///< views from which the scene is drawn in every order, where it can be drawn and has no more than
     std::size_t frames_up_to = 500'000; ///< cells, for what can take minutes beyond
