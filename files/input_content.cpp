@@ -2,12 +2,14 @@
 
 #include "scene/error.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <span>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -16,6 +18,7 @@ namespace visorder {
 namespace {
 
 constexpr int most_seconds = 20; // without a byte
+constexpr std::uint64_t most_bytes_of_pipe = std::uint64_t{1} << 29;
 
 class OpenFile {
 public:
@@ -29,6 +32,12 @@ public:
     ~OpenFile() { close(number_); }
     OpenFile(const OpenFile&) = delete;
     OpenFile& operator=(const OpenFile&) = delete;
+
+    bool is_regular() const
+    {
+        struct stat status = {};
+        return fstat(number_, &status) == 0 && S_ISREG(status.st_mode);
+    }
 
     /// Reads into the buffer, and returns how many bytes: 0 at the end.
     std::size_t read(std::span<char> buffer) const
@@ -60,6 +69,8 @@ private:
 std::string input_content(const std::filesystem::path& path, std::uint64_t most_bytes)
 {
     const OpenFile file(path);
+    if (!file.is_regular())
+        most_bytes = std::min(most_bytes, most_bytes_of_pipe);
     std::string content;
     std::array<char, 1 << 16> buffer{};
     while (const std::size_t n = file.read(buffer)) {
