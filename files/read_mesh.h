@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace visorder {
@@ -33,6 +34,11 @@ namespace visorder {
 /// `options.isolated`, VTK reads one file at a time, and meanwhile its messages, those of other threads too, are
 /// collected rather than shown.
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options = {});
+
+/// The same from the bytes of a file in memory, which are not compressed: in the formats that VTK has no part in.
+/// `name` tells the format, messages, and where further files are looked for.
+MeshFile read_mesh_content(const std::filesystem::path& name, std::string_view content,
+                           const ReadOptions& options = {});
 
 /// The endings of file names that `read_mesh` takes.
 std::vector<std::string> mesh_file_endings();

@@ -216,8 +216,9 @@ TEST(Exodus, RefusesAFileCutShortAnywhere)
 {
     for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4}) {
         const std::string whole = content_of(write_two_blocks("blocks.ex2", format));
-        for (std::size_t length = 0; length < whole.size(); length += 13) // thousands, so without a process for each
-            EXPECT_THAT(reading_error(folder.write("cut.ex2", whole.substr(0, length)), {.isolated = false}),
+        const ReadOptions here{.isolated = false}; // a process for each would take long
+        for (std::size_t length = 0; length < whole.size(); length += 13)
+            EXPECT_THAT(reading_error(folder.write("cut.ex2", whole.substr(0, length)), here),
                         HasSubstr("cannot be read"))
                 << "format " << format << ", " << length << " of " << whole.size() << " bytes";
     }
