@@ -12,9 +12,8 @@
 #include "scene/error.h"
 #include "scene/orientations.h"
 #include "sorting/registry.h"
-#include "sorting/strongly_connected.h"
 #include "tests/checking/audit_scenes.h"
-#include "tests/checking/small_scenes.h"
+#include "tests/checking/orders_of_relations.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -126,42 +125,6 @@ Mesh minimised(Mesh mesh, const std::string& sorter, const glm::dvec4& eye, Verd
     return mesh;
 }
 
-// A random order under the known relations between different sets, or under none.
-Order order_of_known(const Scene& scene, const Relations& known, bool satisfy, std::uint64_t seed)
-{
-    const CellId cells = scene.cell_count();
-    std::vector<std::uint32_t> from, to;
-    if (satisfy)
-        known.visit([&](CellId front, CellId back) {
-            from.push_back(front);
-            to.push_back(back);
-        });
-    const std::vector<std::uint32_t> set_of = strongly_connected_components(graph_of(cells, from, to)).of_node;
-    std::vector<std::size_t> waits_for(cells, 0);
-    std::vector<std::vector<CellId>> fronts(cells);
-    for (std::size_t i = 0; i < from.size(); ++i)
-        if (set_of[from[i]] != set_of[to[i]]) {
-            ++waits_for[from[i]];
-            fronts[to[i]].push_back(from[i]);
-        }
-    std::vector<CellId> free;
-    for (CellId cell = 0; cell < cells; ++cell)
-        if (waits_for[cell] == 0)
-            free.push_back(cell);
-    Order order;
-    Random random(seed);
-    while (!free.empty()) {
-        std::swap(free[static_cast<std::size_t>(random.below(static_cast<int>(free.size())))], free.back());
-        const CellId cell = free.back();
-        free.pop_back();
-        order.back_to_front.push_back(scene.caller_cells()[cell]);
-        for (CellId front : fronts[cell])
-            if (--waits_for[front] == 0)
-                free.push_back(front);
-    }
-    return order;
-}
-
 // For a handler of signals: the scene that is being audited.
 std::string current_scene;
 
@@ -237,7 +200,7 @@ private:
     {
         const Relations known = checker_->relations_at(eye);
         for (std::uint64_t i = 0; i < 3; ++i) {
-            const Order order = order_of_known(scene, known, i < 2, number_ * 1000 + counts_.views * 10 + i);
+            const Order order = random_order(scene, known, i < 2, number_ * 1000 + counts_.views * 10 + i);
             const CheckResult said = checker_->check(known, order), result = truth.pairs.check(order, {1});
             ++counts_.checked;
             // Relations through flat cells are some more.
