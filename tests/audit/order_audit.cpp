@@ -11,6 +11,7 @@
 #include "checking/ray_audit.h"
 #include "scene/error.h"
 #include "scene/orientations.h"
+#include "scene/stopwatch.h"
 #include "sorting/registry.h"
 #include "tests/checking/audit_scenes.h"
 #include "tests/checking/orders_of_relations.h"
@@ -39,6 +40,7 @@ struct Arguments {
     std::filesystem::path folder; // for the scenes of wrong orders; empty: none are written
     std::size_t shown = 5;        // wrong orders of each kind
     std::size_t rays = 50;        // of each view
+    double seconds = 0;           // after which no scene is begun; 0: all are
 };
 
 struct Counts {
@@ -255,8 +257,14 @@ int run(const Arguments& arguments)
     for (const AuditKind& kind : audit_kinds())
         if (contains(arguments.kinds, kind.name))
             audits.emplace_back(kind, arguments);
-    for (std::uint64_t i = 0; i < arguments.scenes && !audits.empty(); ++i)
+    Stopwatch watch;
+    double seconds = 0;
+    for (std::uint64_t i = 0; i < arguments.scenes && !audits.empty(); ++i) {
+        seconds += watch.lap();
+        if (arguments.seconds > 0 && seconds > arguments.seconds)
+            break;
         audits[i % audits.size()].scene(arguments.first + i / audits.size());
+    }
     fmt::print("\n{:<12} {:>8} {:>8} {:>9} {:>8} {:>12} {:>8}\n", "kind", "scenes", "views", "orders", "wrong",
                "false cycles", "refused");
     std::size_t wrong = 0, kind = 0;
@@ -282,6 +290,7 @@ int main(int argc, char** argv)
     app.add_option("--kind", arguments.kinds, "Kinds, a,b,... (default: all)")->delimiter(',');
     app.add_option("--sorters", arguments.sorters, "Sorters, a,b,... (default: all that can be exact)")->delimiter(',');
     app.add_option("--write", arguments.folder, "A folder for the scenes of wrong orders, as .vtk");
+    app.add_option("--seconds", arguments.seconds, "Begin no scene after this time")->capture_default_str();
     app.add_option("--rays", arguments.rays, "Rays of each view")->capture_default_str();
     app.add_option("--show", arguments.shown, "Wrong orders to show of each kind")->capture_default_str();
     std::signal(SIGABRT, visorder::tests::name_current_scene);
