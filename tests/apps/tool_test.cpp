@@ -69,8 +69,10 @@ TEST(Tool, ComparesAgainstRays)
             "--json " +
             file);
     ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const auto result = nlohmann::json::parse(read(file));
+    ASSERT_EQ(result["runs"].size(), 4u);
     std::size_t wrong_centroid = 0;
-    for (const auto& run : nlohmann::json::parse(read(file))["runs"]) {
+    for (const auto& run : result["runs"]) {
         EXPECT_EQ(run["audit_rays"], 400);
         EXPECT_GT(run["audit_pairs"], 400);
         if (run["sorter"] == "centroid")
