@@ -3,7 +3,9 @@
 #include "apps/order_file.h"
 #include "apps/scene_source.h"
 #include "apps/view_choice.h"
+#include "checking/direct_relations.h"
 #include "checking/order_checker.h"
+#include "checking/ray_audit.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -21,7 +23,12 @@ struct Arguments {
     std::shared_ptr<ViewChoice> view;
     std::string order_file;
     std::size_t witnesses = 16;
+    std::size_t rays = 0;
+    bool pairs = false;
 };
+
+// Scenes of up to this many cells have all their pairs tried without being asked.
+constexpr CellId few_cells = 2000;
 
 Order read_order_of(const CellNumbers& cells, const std::string& file)
 {
@@ -49,6 +56,38 @@ void list(const Items& items, std::size_t count, std::size_t most, const Line& l
         fmt::print("  and {} more\n", count - shown);
 }
 
+void print_violations(const CellNumbers& cells, const std::vector<Violation>& witnesses, std::size_t violations,
+                      std::size_t most)
+{
+    list(witnesses, violations, most, [&](const Violation& v) {
+        fmt::print("  {} occludes {} but is painted before it; a ray meets both at {:.17g},{:.17g},{:.17g}\n",
+                   cells.name(v.front), cells.name(v.back), v.witness.x, v.witness.y, v.witness.z);
+    });
+}
+
+// Holds the order against the direct relation of all pairs; returns the violations.
+std::size_t check_pairs(const Scene& scene, const View& view, const Order& order, const CellNumbers& cells,
+                        std::size_t most)
+{
+    const CheckResult result = DirectRelations(scene, view.eye).check(order, {most});
+    fmt::print("all pairs: {} of {} pairs of which one cell occludes the other are in the wrong order\n",
+               result.violations, result.relations);
+    print_violations(cells, result.witnesses, result.violations, most);
+    return result.violations;
+}
+
+// Holds the order against rays; returns the violations.
+std::size_t check_rays(const Scene& scene, const View& view, const Order& order, const CellNumbers& cells,
+                       const CheckResult& known, const Arguments& arguments)
+{
+    const RayAudit audit(scene, view.eye, {.rays = arguments.rays});
+    const RayAuditResult result = audit.check(order, known.unorderable, {arguments.witnesses});
+    fmt::print("{} rays: {} pairs of cells behind each other, {} pairs in the wrong order\n", result.rays, result.pairs,
+               result.violations);
+    print_violations(cells, result.witnesses, result.violations, arguments.witnesses);
+    return result.violations;
+}
+
 int run(const Arguments& arguments, SourcedMesh& sourced)
 {
     const CellNumbers& cells = sourced.cells;
@@ -58,10 +97,10 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     const CheckResult result = OrderChecker(scene).check(view.eye, order, {arguments.witnesses});
     const std::size_t most = arguments.witnesses;
     fmt::print("{} of {} relations violated\n", result.violations, result.relations);
-    list(result.witnesses, result.violations, most, [&](const Violation& v) {
-        fmt::print("  {} occludes {} but is painted before it; a ray meets both at {:.17g},{:.17g},{:.17g}\n",
-                   cells.name(v.front), cells.name(v.back), v.witness.x, v.witness.y, v.witness.z);
-    });
+    print_violations(cells, result.witnesses, result.violations, most);
+    if (result.violations_across_cycles > 0)
+        fmt::print("{} of these are pairs whose one cell occludes the other through cells of a cycle\n",
+                   result.violations_across_cycles);
     if (!result.unorderable.empty())
         fmt::print("no order exists of {} sets of cells, each of which occlude one another in a cycle\n",
                    result.unorderable.size());
@@ -79,7 +118,12 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
                    result.overlapping.size());
     list(result.overlapping, result.overlapping.size(), most,
          [&](const auto& pair) { fmt::print("  {} and {}\n", cells.name(pair.first), cells.name(pair.second)); });
-    return result.violations > 0 ? exit_wrong : exit_success;
+    std::size_t violations = result.violations;
+    if (arguments.pairs || scene.cell_count() <= few_cells)
+        violations += check_pairs(scene, view, order, cells, most);
+    if (arguments.rays > 0)
+        violations += check_rays(scene, view, order, cells, result, arguments);
+    return violations > 0 ? exit_wrong : exit_success;
 }
 
 int run(Arguments& arguments)
@@ -109,6 +153,11 @@ void add_check_command(CLI::App& app, Command& chosen)
     command->add_option("--witnesses", arguments->witnesses, "Cells, or pairs of cells, to show of each kind")
         ->capture_default_str()
         ->check(count_from(0));
+    command
+        ->add_option("--rays", arguments->rays, "Also hold the order against this many rays, which know no relations")
+        ->check(count_from(0));
+    command->add_flag("--pairs", arguments->pairs,
+                      "Also try all pairs of cells, from their vertices alone (unasked up to 2000 cells)");
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

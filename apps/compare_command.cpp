@@ -4,6 +4,7 @@
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/sorter_options.h"
+#include "apps/weld_option.h"
 #include "bench/comparison.h"
 #include "bench/report.h"
 
@@ -24,6 +25,7 @@ struct Arguments {
     std::vector<std::string> sorters;
     std::string size = "512x512";
     std::string json_file;
+    WeldOption weld;
     bool whole = false;
     bool statistics = false;
 };
@@ -43,6 +45,8 @@ std::vector<std::string> refused_names(const Comparison& comparison)
 int run(Arguments& arguments)
 {
     ComparisonOptions& options = arguments.options;
+    options.weld = arguments.weld.given;
+    options.weld_tolerance = arguments.weld.tolerance;
     options.size = image_size(arguments.size, "--size");
     options.subdivide = !arguments.whole;
     if (arguments.sorters != std::vector<std::string>{"all"})
@@ -103,7 +107,7 @@ void add_compare_command(CLI::App& app, Command& chosen)
         ->capture_default_str()
         ->check(CLI::Range(5, 1000));
     command->add_option("--scalar", options.scalar, "The array to take of each mesh (default: the format's)");
-    command->add_flag("--weld", options.weld, "Join points of meshes with exactly equal coordinates");
+    add_weld_option(*command, arguments->weld);
     command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
     command->add_flag("--statistics", arguments->statistics, "Also what each sorter counts of its own work");
     add_sorter_options(*command, options.sorter_options);

@@ -57,6 +57,12 @@ int run(SourcedMesh& sourced)
         fmt::print("  face to face    {}\n", yes_or_no(traits.face_to_face));
         fmt::print("  planar faces    {}\n", yes_or_no(traits.planar_faces));
     }
+    if (!scene.is_surface() && traits.planar_faces)
+        fmt::print("  overlaps        {}\n",
+                   scene.overlapping_cells().empty()
+                       ? std::string("no cells overlap")
+                       : fmt::format("{} pairs of cells; orders are {}", scene.overlapping_cells().size(),
+                                     describe(exact_up_to_overlaps(scene), scene)));
     const AutoChoice choice = choose_sorter(scene);
     fmt::print("  auto            {}: {}\n", choice.name, choice.reason);
     if (traits.planar_faces)

@@ -1,7 +1,9 @@
 #include "apps/commands.h"
+#include "apps/weld_option.h"
 #include "scene/error.h"
 #include "version.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
@@ -9,6 +11,8 @@
 #include <new>
 #include <oneapi/tbb/global_control.h>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -50,7 +54,7 @@ int main(int argc, char** argv)
 {
     using namespace visorder;
     using namespace visorder::apps;
-    CLI::App app{"visorder: visibility orders of the cells of 3D scenes"};
+    CLI::App app{"visorder: visibility orders of the cells of 3D scenes", "visorder"};
     app.set_version_flag("--version", std::string("visorder ") + version);
     app.require_subcommand(1);
     int threads = 0;
@@ -65,7 +69,9 @@ int main(int argc, char** argv)
     add_layers_command(app, command);
     add_sorters_command(app, command);
     try {
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = with_joined_weld_tolerance({argv + 1, argv + argc});
+        std::reverse(arguments.begin(), arguments.end()); // as CLI11 takes a vector of them
+        app.parse(std::move(arguments));
     } catch (const CLI::Success& success) {
         return app.exit(success);
     } catch (const CLI::ParseError& error) {

@@ -17,7 +17,7 @@ std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
     command.add_option("mesh", source->file, "A mesh: .vtu, .vtk, .ex2, .e, .exo, ...xyz.bin, .obj");
     command.add_option("--scene", source->generated, "A generated scene instead, NAME[:SIZE[:SEED]]");
     command.add_option("--scalar", source->scalar, "The array to take (default: the format's)");
-    command.add_flag("--weld", source->weld, "Join points with exactly equal coordinates");
+    add_weld_option(command, source->weld);
     command.add_flag("--whole", source->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
     return source;
 }
@@ -35,7 +35,7 @@ SourcedMesh load(const SceneSource& source)
         file.mesh = generate(source.generated);
     } else {
         result.name = source.file;
-        file = read_mesh(source.file, {source.scalar, source.weld});
+        file = read_mesh(source.file, {source.scalar, source.weld.given, source.weld.tolerance});
     }
     result.source_cells = file.mesh.cell_count();
     if (source.whole) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/weld_option.h"
 #include "files/cell_numbers.h"
 #include "scene/mesh.h"
 
@@ -16,7 +17,7 @@ struct SceneSource {
     std::string file;
     std::string generated;
     std::string scalar;
-    bool weld = false;
+    WeldOption weld;
     bool whole = false;
 };
 

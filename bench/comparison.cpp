@@ -48,7 +48,7 @@ std::vector<Source> sources_of(const ComparisonOptions& options)
 {
     std::vector<Source> sources;
     for (const std::filesystem::path& file : options.files) {
-        const ReadOptions read{options.scalar, options.weld};
+        const ReadOptions read{options.scalar, options.weld, options.weld_tolerance};
         sources.push_back({distinct_name(options, file), "", [file, read] { return read_mesh(file, read); }});
     }
     for (const std::string& specification : options.generated)

@@ -26,7 +26,8 @@ struct ComparisonOptions {
     std::uint64_t seed = 1;                   ///< of the views
     int repeats = 5;                          ///< timed sorts a view, of which the median counts
     bool subdivide = true;                    ///< zoo cells into tetrahedra
-    bool weld = false;                        ///< points of files with exactly equal coordinates
+    bool weld = false;                        ///< points of files with exactly equal coordinates, or
+    double weld_tolerance = 0;                ///< within this distance of each other
     std::string scalar;                       ///< of files; empty: the format's default
     SorterOptions sorter_options;
     int frames = 1; ///< views from which the scene is drawn in every order, where it can be drawn and has no more than

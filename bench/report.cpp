@@ -83,7 +83,8 @@ std::string traits_of(const SceneResult& scene)
     if (scene.delaunay)
         text += ", Delaunay";
     if (scene.overlapping_pairs > 0)
-        text += fmt::format(", {} pairs of cells overlap", with_commas(scene.overlapping_pairs));
+        text += fmt::format(", {} pairs of cells overlap, for which no order is exact",
+                            with_commas(scene.overlapping_pairs));
     return text;
 }
 

@@ -1,6 +1,8 @@
 #include "checking/order_checker.h"
 
-#include "scene/error.h"
+#include "checking/convex_body.h"
+#include "checking/order_positions.h"
+#include "checking/planar_faces.h"
 #include "scene/face_loop.h"
 #include "scene/face_overlap.h"
 #include "sorting/boundary_relations.h"
@@ -36,33 +38,6 @@ void each_cell(const Scene& scene, const Body& body)
 Pair ascending(CellId a, CellId b)
 {
     return {std::min(a, b), std::max(a, b)};
-}
-
-// Throws for the lowest cell, in the caller's numbering, with a face that is not planar.
-void require_planar_faces(const Scene& scene)
-{
-    if (scene.is_surface() || scene.is_tetrahedral())
-        return;
-    const Mesh& mesh = scene.mesh();
-    const auto is_planar = [&](CellId cell, int face) {
-        const FaceLoop loop = face_loop(mesh, cell, face);
-        const PointId* v = loop.begin();
-        return loop.count < 4 ||
-               side_of_plane(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) == Sign::zero;
-    };
-    constexpr CellId none = std::numeric_limits<CellId>::max();
-    std::atomic<CellId> lowest{none};
-    each_cell(scene, [&](CellId cell) {
-        for (int face = 0; face < face_count(mesh.shapes[cell]); ++face)
-            if (!is_planar(cell, face)) {
-                CellId known = lowest.load();
-                const CellId caller = scene.caller_cells()[cell];
-                while (caller < known && !lowest.compare_exchange_weak(known, caller)) {}
-                return;
-            }
-    });
-    if (lowest != none)
-        throw CellError(lowest.load(), "a face is not planar; subdivide the mesh into tetrahedra");
 }
 
 // The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such
@@ -275,29 +250,44 @@ Relations::UnorderableSets Relations::find_unorderable() const
     return {std::move(members), {}};
 }
 
+// What cycle_crossings.h needs to know of the sets.
+void Relations::find_neighbours(UnorderableSets& unorderable) const
+{
+    SetsAndNeighbours& known = unorderable.known;
+    const auto caller = scene_->caller_cells();
+    std::vector<std::uint32_t> set_of_caller(scene_->cell_count(), 0);
+    for (std::uint32_t i = 0; i < unorderable.sets.size(); ++i)
+        for (CellId cell : unorderable.sets[i])
+            set_of_caller[cell] = i + 1;
+    known.set_of.resize(scene_->cell_count());
+    known.sets.resize(unorderable.sets.size());
+    for (CellId cell = 0; cell < scene_->cell_count(); ++cell) {
+        known.set_of[cell] = set_of_caller[caller[cell]];
+        if (known.set_of[cell] != 0)
+            known.sets[known.set_of[cell] - 1].push_back(cell);
+    }
+    visit([&](CellId front, CellId back) {
+        if (known.set_of[front] != known.set_of[back])
+            known.relations.push_back({front, back});
+    });
+    std::sort(known.relations.begin(), known.relations.end());
+}
+
 const Relations::UnorderableSets& Relations::unorderable() const
 {
     return on_demand_->unorderable.get([&] {
         if (on_demand_->an_order_is_known)
             return UnorderableSets{};
         UnorderableSets found = find_unorderable();
-        if (!found.sets.empty()) {
-            std::vector<std::uint32_t> set_of_caller(scene_->cell_count(), 0);
-            for (std::uint32_t i = 0; i < found.sets.size(); ++i)
-                for (CellId cell : found.sets[i])
-                    set_of_caller[cell] = i + 1;
-            found.set_of.resize(set_of_caller.size());
-            each_cell(*scene_, [&](CellId cell) { found.set_of[cell] = set_of_caller[scene_->caller_cells()[cell]]; });
-        }
+        if (!found.sets.empty())
+            find_neighbours(found);
         return found;
     });
 }
 
-OrderChecker::OrderChecker(const Scene& scene) : scene_(scene), inner_cells_(scene.cell_count())
+OrderChecker::OrderChecker(const Scene& scene) : scene_(scene)
 {
     require_planar_faces(scene);
-    const auto caller = scene.caller_cells();
-    each_cell(scene, [&](CellId cell) { inner_cells_[caller[cell]] = cell; });
 }
 
 Relations OrderChecker::relations_at(const glm::dvec4& eye) const
@@ -308,7 +298,7 @@ Relations OrderChecker::relations_at(const glm::dvec4& eye) const
 
 CheckResult OrderChecker::check(const Relations& relations, const Order& order, CheckOptions options) const
 {
-    const LargeArray<std::uint32_t> place = positions(order);
+    const LargeArray<std::uint32_t> place = order_positions(scene_, order);
     const auto tally = [&](std::span<const std::uint32_t> set_of, std::size_t most) {
         const auto join = [](Tally a, const Tally& b) {
             a.add(b);
@@ -342,36 +332,22 @@ CheckResult OrderChecker::check(const Relations& relations, const Order& order, 
         return result;
     }
     const Relations::UnorderableSets& unorderable = relations.unorderable();
-    Tally found = tally(unorderable.set_of, options.max_witnesses);
-    result.violations = found.violations;
+    Tally found = tally(unorderable.known.set_of, options.max_witnesses);
     result.violations_in_cycles = found.in_cycles;
     result.unorderable = unorderable.sets;
-    for (const auto& [front, back] : found.first())
+    const std::vector<Relation> across = violations_across_sets(scene_, relations.eye(), unorderable.known, place);
+    result.violations_across_cycles = across.size();
+    for (const Relation& relation : across)
+        found(relation.front, relation.back);
+    result.violations = found.violations;
+    for (const auto& [front, back] : found.first()) {
+        const bool is_across = std::binary_search(across.begin(), across.end(), Relation{front, back});
         result.witnesses.push_back(
-            {scene_.caller_cells()[front], scene_.caller_cells()[back], witness(relations, front, back)});
-    return result;
-}
-
-// Of every inner cell, where it stands in the order.
-LargeArray<std::uint32_t> OrderChecker::positions(const Order& order) const
-{
-    constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-    LargeArray<std::uint32_t> place(scene_.cell_count());
-    std::fill(place.begin(), place.end(), nowhere);
-    for (std::size_t i = 0; i < order.back_to_front.size(); ++i) {
-        const CellId cell = order.back_to_front[i];
-        if (cell >= scene_.cell_count())
-            throw InputError(
-                fmt::format("the order lists cell {}, but the scene has {} cells", cell, scene_.cell_count()));
-        std::uint32_t& at = place[inner_cells_[cell]];
-        if (at != nowhere)
-            throw InputError(fmt::format("the order lists cell {} twice", cell));
-        at = static_cast<std::uint32_t>(i);
+            {scene_.caller_cells()[front], scene_.caller_cells()[back],
+             is_across ? occlusion_witness(body_of(scene_.mesh(), front), body_of(scene_.mesh(), back), relations.eye())
+                       : witness(relations, front, back)});
     }
-    for (CellId cell = 0; order.back_to_front.size() < scene_.cell_count() && cell < scene_.cell_count(); ++cell)
-        if (place[inner_cells_[cell]] == nowhere)
-            throw InputError(fmt::format("the order leaves out cell {}", cell));
-    return place;
+    return result;
 }
 
 glm::dvec3 OrderChecker::witness(const Relations& relations, CellId front, CellId back) const

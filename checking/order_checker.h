@@ -1,5 +1,7 @@
 #pragma once
 
+#include "checking/check_result.h"
+#include "checking/cycle_crossings.h"
 #include "scene/large_array.h"
 #include "scene/scene.h"
 #include "sorting/relation.h"
@@ -15,33 +17,6 @@
 #include <vector>
 
 namespace visorder {
-
-struct CheckOptions {
-    std::size_t max_witnesses = 16;
-};
-
-/// A relation that an order does not satisfy, cells in the caller's numbering: `front` obstructs `back` but is painted
-/// before it.
-struct Violation {
-    CellId front;
-    CellId back;
-    glm::dvec3 witness; ///< where a ray from the eye that has passed through `front` enters `back`, rounded
-};
-
-/// What is wrong with an order. Cells in the caller's numbering.
-struct CheckResult {
-    std::size_t relations = 0;  ///< distinct pairs (front, back), without those of cells that overlap in space
-    std::size_t violations = 0; ///< how many of the relations the order does not satisfy, outside of `unorderable` sets
-    std::size_t violations_in_cycles = 0; ///< and within them, where some relation must always go unsatisfied
-    std::vector<Violation> witnesses;     ///< the first of `violations`, ascending by front and back
-    /// Cells that overlap in space (a, b), a < b, ascending. No order of them exists; they count as no relation.
-    std::vector<std::pair<CellId, CellId>> overlapping;
-    /// Strongly connected sets of more than one cell under the relations, ascending as are the cells of each. No order
-    /// satisfies all relations within one.
-    std::vector<std::vector<CellId>> unorderable;
-
-    bool order_exists() const { return unorderable.empty(); }
-};
 
 /// Every relation that an order of a scene has to satisfy from one eye: made by OrderChecker::relations_at, to check
 /// any number of orders. Refers to the checker's Scene, which must outlive it; threads may share it.
@@ -64,7 +39,7 @@ private:
 
     struct UnorderableSets {
         std::vector<std::vector<CellId>> sets; // caller's numbering
-        std::vector<std::uint32_t> set_of;     // of inner cells: 1 + index into sets, or 0; empty if there are no sets
+        SetsAndNeighbours known;               // the same sets; all empty if there are none
     };
     struct OnDemand {
         std::atomic<bool> an_order_is_known{false};
@@ -76,6 +51,7 @@ private:
     void evaluate_interior();
     void evaluate_boundary();
     UnorderableSets find_unorderable() const;
+    void find_neighbours(UnorderableSets& unorderable) const;
     const UnorderableSets& unorderable() const;
 
     // Relations across interior faces are kept at the cell with the lower number: bits of its exit faces, and, above,
@@ -130,11 +106,9 @@ public:
     }
 
 private:
-    LargeArray<std::uint32_t> positions(const Order& order) const;
     glm::dvec3 witness(const Relations& relations, CellId front, CellId back) const;
 
     const Scene& scene_;
-    LargeArray<CellId> inner_cells_; // of the caller's
 };
 
 } // namespace visorder

@@ -219,43 +219,14 @@ Settled Obstruction::definitive(CellId front, CellId back) const
     return nearer ? Settled::obstructs : Settled::apart;
 }
 
-// What runs through a flat cell: relations across its faces, and those of its boundary faces with other cells'.
+// Across the faces that a flat cell shares with the solid cells around it; from others, nothing occludes it.
 bool Obstruction::obstructs_beside_flat(CellId front, CellId back) const
 {
-    bool share_face = false, obstructs = false;
     const auto row = scene_.adjacency().row(front);
     for (std::size_t face = 0; face < row.size(); ++face)
-        if (row[face] == back) {
-            share_face = true;
-            obstructs |= exact_face_side(scene_, front, static_cast<int>(face), eye_) == Sign::negative;
-        }
-    if (share_face)
-        return obstructs;
-
-    const auto crosses = [&](CellId a, CellId b, bool& covered) {
-        for (int f = 0; f < face_count(scene_.mesh().shapes[a]); ++f) {
-            if (!is_boundary_face(a, f) || exact_face_side(scene_, a, f, eye_) != Sign::negative)
-                continue;
-            const SeenFace exit = seen_face_of(a, f);
-            for (int g = 0; g < face_count(scene_.mesh().shapes[b]); ++g) {
-                if (!is_boundary_face(b, g) || exact_face_side(scene_, b, g, eye_) != Sign::positive)
-                    continue;
-                const Overlap overlap = face_overlap(exit, seen_face_of(b, g), eye_);
-                if (overlap == Overlap::crossing)
-                    return true;
-                covered |= covers(overlap);
-            }
-        }
-        return false;
-    };
-    bool reverse = false;
-    return !crosses(front, back, obstructs) && obstructs && !crosses(back, front, reverse);
-}
-
-bool Obstruction::is_boundary_face(CellId cell, int face) const
-{
-    return scene_.adjacency().row(cell)[static_cast<std::size_t>(face)] == cell &&
-           face_loop(scene_.mesh(), cell, face).count >= 3;
+        if (row[face] == back && exact_face_side(scene_, front, static_cast<int>(face), eye_) == Sign::negative)
+            return true;
+    return false;
 }
 
 } // namespace visorder

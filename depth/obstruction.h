@@ -28,8 +28,8 @@ enum class Settled {
 /// such faces in the other order tells that they do overlap in space; then there is no order of them, and neither
 /// obstructs the other. Two triangles of a surface that cross, or lie in one plane, obstruct each other no more.
 ///
-/// A flat cell obstructs nothing itself, and what runs through it is known from its neighbours alone (see
-/// `exact_face_side`). So the adjacency is derived for pairs with a flat cell, and only where a scene has any.
+/// A flat cell occludes nothing itself; its relations to the solid cells on both sides of it (see Adjacency) only place
+/// it between them. So the adjacency is derived only where a scene has flat cells.
 ///
 /// `look_from` is one call at a time; between two of them any number of threads may ask.
 class Obstruction {
@@ -77,7 +77,6 @@ private:
     bool has_on_side(CellId cell, int face, Sign side, CellId other) const;
     Settled definitive(CellId front, CellId back) const;
     bool obstructs_beside_flat(CellId front, CellId back) const;
-    bool is_boundary_face(CellId cell, int face) const;
 
     const Scene& scene_;
     int row_length_;

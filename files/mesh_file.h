@@ -14,7 +14,11 @@ struct ReadOptions {
     /// the format's default, which is the density in Plot3D and elsewhere the first array of one component that does
     /// not hold ids, of points, else of cells.
     std::string scalar = "";
-    bool weld = false; ///< join points with exactly equal coordinates (see `weld`)
+    bool weld = false;         ///< join points with exactly equal coordinates (see `weld`),
+    double weld_tolerance = 0; ///< or, where `weld` is set, within this distance of each other
+    /// Of a file with time steps the one to take: "first", "last", "index:N" counted from 0, or its time. Empty: the
+    /// last.
+    std::string time = "";
     /// Have files whose reader is not proof against damage, VTK's, read by a process of its own (see
     /// reader_process.h). Without, a damaged file can crash the program or take all its time and memory.
     bool isolated = true;

@@ -17,7 +17,7 @@ constexpr std::uint64_t layout =
 template <class Archive>
 void transfer(Archive& archive, ReadOptions& options)
 {
-    archive(options.scalar, options.weld, options.isolated);
+    archive(options.scalar, options.weld, options.weld_tolerance, options.time, options.isolated);
 }
 
 template <class Archive>

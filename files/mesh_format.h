@@ -1,17 +1,20 @@
 #pragma once
 
-#include "files/mesh_file.h"
+#include "files/file_grid.h"
 
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace visorder {
 
-/// A format that meshes are read from.
+/// A format that meshes are read from. Readers throw InputError, naming the file.
 struct MeshFormat {
     const char* ending; ///< of the file's name, in small letters
-    /// Takes the scalar of the options, and leaves the rest of them to `read_mesh`.
-    MeshFile (*read)(const std::filesystem::path& path, const ReadOptions& options);
+    /// Reads a file as a whole, which may have been compressed; null if the format is VTK's.
+    FileGrid (*read_content)(const std::filesystem::path& path, std::string_view content, const ReadOptions& options);
+    /// Reads a file, and maybe others that it names; null if `read_content` does.
+    FileGrid (*read_file)(const std::filesystem::path& path, const ReadOptions& options);
     bool isolated = false; ///< whether a process of its own reads it, unless the options say otherwise
 };
 

@@ -1,6 +1,5 @@
 #include "files/obj_file.h"
 
-#include "files/polygon.h"
 #include "files/printable.h"
 #include "scene/error.h"
 
@@ -9,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
+#include <span>
 #include <string_view>
 
 namespace visorder {
@@ -23,42 +22,54 @@ constexpr std::array ignored{"vt",    "vn",       "vp",       "o",          "g",
                              "mg",    "usemtl",   "mtllib",   "maplib",     "usemap",   "lod",
                              "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
 
+// Curves and surfaces that are no polygons, and what describes them.
+constexpr std::array free_form{"curv", "curv2", "surf"};
+constexpr std::array free_form_details{"cstype", "deg", "bmat", "step", "parm", "trim", "hole",
+                                       "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
+
+bool is_one_of(std::span<const char* const> words, std::string_view word)
+{
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 class ObjParser {
 public:
-    explicit ObjParser(const std::filesystem::path& path) : path_(path) {}
+    explicit ObjParser(const std::filesystem::path& path) { grid_.path = path; }
 
-    MeshFile run()
+    FileGrid run(std::string_view content)
     {
-        std::ifstream file(path_, std::ios::binary);
+        constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+        if (content.starts_with(byte_order_mark))
+            content.remove_prefix(byte_order_mark.size());
         std::string text;
-        for (std::string line; std::getline(file, line);) {
+        while (!content.empty()) {
             ++line_;
-            line.erase(std::min(line.find('#'), line.size()));
-            line.erase(line.find_last_not_of(blanks) + 1);
+            std::string_view line = content.substr(0, content.find('\n'));
+            content.remove_prefix(std::min(line.size() + 1, content.size()));
+            line = line.substr(0, line.find('#'));
+            line = line.substr(0, line.find_last_not_of(blanks) + 1);
             if (line.ends_with('\\')) { // goes on in the next line
-                text += line.substr(0, line.size() - 1) + ' ';
+                text += line.substr(0, line.size() - 1);
+                text += ' ';
                 continue;
             }
-            parse(text + line);
+            parse(text.empty() ? line : text += line);
             text.clear();
         }
         if (!text.empty())
             fail("the file ends within it");
-        if (mesh().cell_count() == 0)
-            throw InputError(fmt::format("{}: there are no polygons in it", path_.string()));
-        if (split_ > 0)
-            result_.notes.push_back(fmt::format("{} polygons split into triangles", split_));
-        if (lower_ > 0)
-            result_.notes.push_back(fmt::format("{} points and lines left out", lower_));
-        return std::move(result_);
+        if (std::all_of(grid_.cells.begin(), grid_.cells.end(),
+                        [](const ListedCell& cell) { return cell.shape == ListedShape::lower; }))
+            throw InputError(fmt::format("{}: there are no polygons in it", grid_.path.string()));
+        if (free_form_ > 0)
+            grid_.notes.push_back(fmt::format("{} free-form curves and surfaces left out", free_form_));
+        return std::move(grid_);
     }
 
 private:
-    Mesh& mesh() { return result_.mesh; }
-
     [[noreturn]] void fail(const std::string& what) const
     {
-        throw InputError(fmt::format("{}: line {}: {}", path_.string(), line_, what));
+        throw InputError(fmt::format("{}: line {}: {}", grid_.path.string(), line_, what));
     }
 
     void parse(std::string_view line)
@@ -69,8 +80,10 @@ private:
         else if (keyword == "f" || keyword == "fo") // fo: what f was once called
             parse_polygon(line);
         else if (keyword == "p" || keyword == "l")
-            ++lower_;
-        else if (!keyword.empty() && std::find(ignored.begin(), ignored.end(), keyword) == ignored.end())
+            grid_.add({ListedShape::lower}, {});
+        else if (is_one_of(free_form, keyword))
+            ++free_form_;
+        else if (!keyword.empty() && !is_one_of(ignored, keyword) && !is_one_of(free_form_details, keyword))
             fail(fmt::format("\"{}\" is nothing that a polygon model has", printable(keyword)));
     }
 
@@ -106,7 +119,7 @@ private:
             if (!std::isfinite(coordinate))
                 fail("a coordinate is not finite");
         }
-        mesh().points.emplace_back(p[0], p[1], p[2]);
+        grid_.points.emplace_back(p[0], p[1], p[2]);
     }
 
     void parse_polygon(std::string_view line)
@@ -116,41 +129,30 @@ private:
             corners_.push_back(corner(word));
         if (corners_.size() < 3)
             fail(fmt::format("a polygon of {} corners", corners_.size()));
-        const auto triangles = triangles_of(corners_, mesh().points);
-        if (triangles.size() > 1)
-            ++split_;
-        for (const auto& triangle : triangles)
-            mesh().add(CellShape::triangle, triangle);
-        result_.file_cells.resize(mesh().cell_count(), polygons_ + lower_);
-        ++polygons_;
+        grid_.add({ListedShape::polygon}, corners_);
     }
 
     /// The point of v, v/vt, v//vn or v/vt/vn: counted from 1, or back from the last point so far if negative.
-    PointId corner(std::string_view word) const
+    std::int64_t corner(std::string_view word) const
     {
         const auto index = number<std::int64_t>(word.substr(0, word.find('/')));
-        const auto count = static_cast<std::int64_t>(result_.mesh.points.size());
+        const auto count = static_cast<std::int64_t>(grid_.points.size());
         if (index == 0 || index > count || index < -count)
             fail(fmt::format("there is no point {}, {} came before", index, count));
-        return static_cast<PointId>(index > 0 ? index - 1 : count + index);
+        return index > 0 ? index - 1 : count + index;
     }
 
-    const std::filesystem::path& path_;
-    MeshFile result_;
+    FileGrid grid_;
     std::size_t line_ = 0;
-    std::vector<PointId> corners_;
-    std::size_t polygons_ = 0;
-    std::size_t split_ = 0;
-    std::size_t lower_ = 0;
+    std::vector<std::int64_t> corners_;
+    std::size_t free_form_ = 0;
 };
 
 } // namespace
 
-MeshFile read_obj_file(const std::filesystem::path& path, const ReadOptions& options)
+FileGrid read_obj_file(const std::filesystem::path& path, std::string_view content)
 {
-    if (!options.scalar.empty())
-        throw InputError(fmt::format("{}: no scalar \"{}\"; it has: none", path.string(), options.scalar));
-    return ObjParser(path).run();
+    return ObjParser(path).run(content);
 }
 
 } // namespace visorder

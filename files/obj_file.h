@@ -1,14 +1,13 @@
 #pragma once
 
-#include "files/mesh_file.h"
+#include "files/file_grid.h"
 
-#include <filesystem>
+#include <string_view>
 
 namespace visorder {
 
-/// The polygons of a Wavefront .obj file, split into triangles, over all its `v` points. Corners that name the same `v`
-/// share a point, whatever texture coordinates and normals they have. Its cells are its `f`, `p` and `l` statements.
-/// Throws InputError, naming the file and the line.
-MeshFile read_obj_file(const std::filesystem::path& path, const ReadOptions& options);
+/// The polygons of a Wavefront .obj file, over all its `v` points. Corners that name the same `v` share a point,
+/// whatever texture coordinates and normals they have. Throws InputError, naming the file and the line.
+FileGrid read_obj_file(const std::filesystem::path& path, std::string_view content);
 
 } // namespace visorder

@@ -36,47 +36,71 @@ std::vector<glm::dvec2> flattened(std::span<const PointId> polygon, std::span<co
     return flat;
 }
 
-/// Whether corner `at` of the remaining ones can be cut off: it points outward, and no other corner lies in its
-/// triangle.
-bool is_ear(const std::vector<std::size_t>& remaining, std::size_t at, const std::vector<glm::dvec2>& flat)
-{
-    const std::size_t n = remaining.size();
-    const glm::dvec2& a = flat[remaining[(at + n - 1) % n]];
-    const glm::dvec2& b = flat[remaining[at]];
-    const glm::dvec2& c = flat[remaining[(at + 1) % n]];
-    if (!(area(a, b, c) > 0))
-        return false;
-    return std::none_of(remaining.begin(), remaining.end(), [&](std::size_t corner) {
-        const glm::dvec2& p = flat[corner];
-        // Corners may coincide with those of the ear, where the polygon touches itself.
-        return p != a && p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
-    });
-}
+/// The corners that are left of a polygon while ears are cut off it.
+class EarClipping {
+public:
+    explicit EarClipping(std::vector<glm::dvec2> corners) : flat_(std::move(corners)), is_ear_(flat_.size())
+    {
+        for (std::size_t i = 0; i < flat_.size(); ++i)
+            remaining_.push_back(i);
+        for (std::size_t at = 0; at < remaining_.size(); ++at)
+            update(at);
+    }
+
+    std::size_t size() const { return remaining_.size(); }
+
+    /// Cuts off a corner; gives it between its neighbours.
+    std::array<std::size_t, 3> cut()
+    {
+        const std::size_t n = remaining_.size();
+        // Started at the second corner, so that what stays of a convex polygon keeps its first.
+        std::size_t at = 1;
+        while (at <= n && !is_ear_[remaining_[at % n]])
+            ++at;
+        // Without an ear the polygon has no area left or crosses itself; any corner will do.
+        at = at > n ? 1 : at % n;
+        const std::array triangle{remaining_[(at + n - 1) % n], remaining_[at], remaining_[(at + 1) % n]};
+        remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(at));
+        if (remaining_.size() >= 3) {
+            update((at + remaining_.size() - 1) % remaining_.size());
+            update(at % remaining_.size());
+        }
+        return triangle;
+    }
+
+private:
+    /// Finds out whether the corner can be cut off: it points outward, and no other lies in its triangle. Cutting off
+    /// another corner changes that of its neighbours alone: in a triangle that holds corners of a simple polygon there
+    /// is one that points inward, which is never cut off.
+    void update(std::size_t at)
+    {
+        const std::size_t n = remaining_.size();
+        const glm::dvec2& a = flat_[remaining_[(at + n - 1) % n]];
+        const glm::dvec2& b = flat_[remaining_[at]];
+        const glm::dvec2& c = flat_[remaining_[(at + 1) % n]];
+        is_ear_[remaining_[at]] =
+            area(a, b, c) > 0 && std::none_of(remaining_.begin(), remaining_.end(), [&](std::size_t corner) {
+                const glm::dvec2& p = flat_[corner];
+                // Corners may coincide with those of the ear, where the polygon touches itself.
+                return p != a && p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
+            });
+    }
+
+    std::vector<glm::dvec2> flat_;
+    std::vector<bool> is_ear_; // for each corner of the whole polygon
+    std::vector<std::size_t> remaining_;
+};
 
 } // namespace
 
 std::vector<std::array<PointId, 3>> triangles_of(std::span<const PointId> polygon, std::span<const glm::dvec3> points)
 {
-    std::vector<std::array<PointId, 3>> triangles;
     if (polygon.size() == 3)
         return {{polygon[0], polygon[1], polygon[2]}};
-
-    const std::vector<glm::dvec2> flat = flattened(polygon, points);
-    std::vector<std::size_t> remaining;
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-        remaining.push_back(i);
-
-    while (remaining.size() >= 3) {
-        // Started at the second corner, so that what stays of a convex polygon keeps its first.
-        std::size_t ear = 1;
-        while (ear <= remaining.size() && !is_ear(remaining, ear % remaining.size(), flat))
-            ++ear;
-        // Without an ear the polygon has no area left or crosses itself; any corner will do.
-        ear = ear > remaining.size() ? 1 : ear % remaining.size();
-        const std::size_t n = remaining.size();
-        triangles.push_back(
-            {polygon[remaining[(ear + n - 1) % n]], polygon[remaining[ear]], polygon[remaining[(ear + 1) % n]]});
-        remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(ear));
+    std::vector<std::array<PointId, 3>> triangles;
+    for (EarClipping clipping(flattened(polygon, points)); clipping.size() >= 3;) {
+        const auto [a, b, c] = clipping.cut();
+        triangles.push_back({polygon[a], polygon[b], polygon[c]});
     }
     return triangles;
 }

@@ -11,7 +11,7 @@ namespace visorder {
 
 /// Splits a polygon of n corners, convex or not, into n - 2 triangles of its orientation by cutting off ears; a convex
 /// one becomes a fan around its first corner. The corners of one that is not planar are taken as projected along its
-/// mean normal. A polygon that crosses itself gets some n - 2 triangles of its corners.
+/// mean normal. A polygon that crosses itself gets some n - 2 triangles of its corners. Quadratic in n.
 std::vector<std::array<PointId, 3>> triangles_of(std::span<const PointId> polygon, std::span<const glm::dvec3> points);
 
 } // namespace visorder

@@ -1,10 +1,17 @@
 #include "files/read_mesh.h"
 
 #include "files/cell_numbers.h"
+#include "files/file_content.h"
+#include "files/gmsh_file.h"
+#include "files/medit_file.h"
 #include "files/mesh_format.h"
 #include "files/obj_file.h"
+#include "files/off_file.h"
+#include "files/plot3d_file.h"
+#include "files/ply_file.h"
 #include "files/reader_process.h"
-#include "files/unused_points.h"
+#include "files/stl_file.h"
+#include "files/time_step.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -18,7 +25,33 @@ namespace visorder {
 
 namespace {
 
-constexpr std::array own_formats{MeshFormat{".obj", read_obj_file}};
+template <FileGrid (*Read)(const std::filesystem::path&, std::string_view)>
+FileGrid read_without_time(const std::filesystem::path& path, std::string_view content, const ReadOptions& options)
+{
+    FileGrid grid = Read(path, content);
+    choose_time_step(path, {}, options.time, grid.notes);
+    return grid;
+}
+
+FileGrid read_gmsh(const std::filesystem::path& path, std::string_view content, const ReadOptions& options)
+{
+    return read_gmsh_file(path, content, options.time);
+}
+
+constexpr std::array own_formats{
+    MeshFormat{"xyz.bin", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".xyz", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".x", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".p3d", read_without_time<read_plot3d_file>, nullptr},
+    MeshFormat{".mesh", read_without_time<read_medit_file>, nullptr},
+    MeshFormat{".meshb", read_without_time<read_medit_binary_file>, nullptr},
+    MeshFormat{".msh", read_gmsh, nullptr},
+    MeshFormat{".obj", read_without_time<read_obj_file>, nullptr},
+    MeshFormat{".off", read_without_time<read_off_file>, nullptr},
+    MeshFormat{".ply", read_without_time<read_ply_file>, nullptr},
+    MeshFormat{".stl", read_without_time<read_stl_file>, nullptr},
+};
+constexpr std::string_view compressed_ending = ".gz";
 
 std::vector<MeshFormat> all_formats()
 {
@@ -36,11 +69,16 @@ const std::vector<MeshFormat>& formats()
     return all;
 }
 
-/// The format that a name's ending tells, whatever the case of its letters; null for none.
-const MeshFormat* format_of(std::string name)
+std::string in_small_letters(std::string name)
 {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return name;
+}
+
+/// The format that a name's ending tells; null for none.
+const MeshFormat* format_of(const std::string& name)
+{
     const auto format = std::find_if(formats().begin(), formats().end(),
                                      [&](const MeshFormat& candidate) { return name.ends_with(candidate.ending); });
     return format == formats().end() ? nullptr : &*format;
@@ -51,10 +89,20 @@ const MeshFormat* format_of(std::string name)
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
+/// A format, and whether the file is compressed.
+struct NamedFormat {
+    const MeshFormat& format;
+    bool is_compressed;
+};
+
 /// The format of a file that is there.
-const MeshFormat& checked_format(const std::filesystem::path& file)
+NamedFormat checked_format(const std::filesystem::path& file)
 {
-    const MeshFormat* format = format_of(file.filename().string());
+    std::string name = in_small_letters(file.filename().string());
+    const bool is_compressed = name.ends_with(compressed_ending);
+    if (is_compressed)
+        name.resize(name.size() - compressed_ending.size());
+    const MeshFormat* format = format_of(name);
     if (!format)
         fail(file, fmt::format("not a name of a mesh file; they end in {}", fmt::join(mesh_file_endings(), ", ")));
     std::error_code error;
@@ -62,7 +110,17 @@ const MeshFormat& checked_format(const std::filesystem::path& file)
         fail(file, std::filesystem::exists(file, error) ? "not a file" : "there is no such file");
     if (!std::ifstream(file))
         fail(file, "cannot be opened");
-    return *format;
+    if (is_compressed && !format->read_content)
+        fail(file, fmt::format("files that end in {} are read only if they are not compressed", format->ending));
+    return {*format, is_compressed};
+}
+
+FileGrid read_grid(const std::filesystem::path& file, const NamedFormat& named, const ReadOptions& options)
+{
+    if (!named.format.read_content)
+        return named.format.read_file(file, options);
+    const std::string content = content_of_file(file);
+    return named.format.read_content(file, named.is_compressed ? decompressed(file, content) : content, options);
 }
 
 void check(const std::filesystem::path& file, const MeshFile& read)
@@ -84,24 +142,21 @@ void check(const std::filesystem::path& file, const MeshFile& read)
 
 MeshFile read_mesh(const std::filesystem::path& file, const ReadOptions& options)
 {
-    const MeshFormat& format = checked_format(file);
-    if (format.isolated && options.isolated) {
+    const NamedFormat named = checked_format(file);
+    if (named.format.isolated && options.isolated) {
         MeshFile result = read_in_own_process(file, options);
         check(file, result); // it comes from a process that damage may have upset
         return result;
     }
 
-    MeshFile result = format.read(file, options);
-    const auto note = [&](std::size_t count, const char* what) {
-        if (count > 0)
-            result.notes.push_back(fmt::format("{} {}", count, what));
-    };
-    note(drop_unused_points(result.mesh), "points that no cell uses left out");
-    if (options.weld)
-        note(weld(result.mesh), "points joined with others of the same coordinates");
+    MeshFile result = mesh_of(read_grid(file, named, options), options);
+    if (options.weld && options.weld_tolerance > 0)
+        if (const std::size_t joined = weld(result.mesh, options.weld_tolerance); joined > 0)
+            result.notes.push_back(fmt::format("{} points joined with others near them", joined));
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
-    note(static_cast<std::size_t>(not_finite), "scalars are not finite");
+    if (not_finite > 0)
+        result.notes.push_back(fmt::format("{} scalars are not finite", not_finite));
     check(file, result);
     return result;
 }

@@ -7,10 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_reduce.h>
 #include <string>
+#include <unordered_map>
 
 namespace visorder {
 
@@ -124,6 +127,62 @@ LargeArray<PointId> lowest_equal_points(const std::vector<glm::dvec3>& points)
     return lowest;
 }
 
+// For each point the first one kept that lies within the tolerance, or itself, which is then kept.
+LargeArray<PointId> first_near_points(const std::vector<glm::dvec3>& points, double tolerance)
+{
+    // Points kept, by the cubes of a grid. Whatever is within the tolerance lies in the same cube or one beside it. The
+    // numbers of cubes are doubles: far away, where they are no longer apart, a cube is tried more than once.
+    std::unordered_map<std::uint64_t, std::vector<PointId>> kept;
+    const auto cube_of = [&](const glm::dvec3& p) { return glm::floor(p / tolerance); };
+    LargeArray<PointId> first(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const glm::dvec3 cube = cube_of(points[i]);
+        PointId found = static_cast<PointId>(i);
+        for (int beside = 0; beside < 27; ++beside) {
+            const glm::dvec3 offset(beside % 3 - 1, beside / 3 % 3 - 1, beside / 9 - 1);
+            const auto at = kept.find(hash(cube + offset));
+            if (at == kept.end())
+                continue;
+            for (const PointId candidate : at->second)
+                if (candidate < found && glm::distance(points[candidate], points[i]) <= tolerance)
+                    found = candidate;
+        }
+        first[i] = found;
+        if (found == i)
+            kept[hash(cube)].push_back(found);
+    }
+    return first;
+}
+
+// Joins each point with the one that `renumbered` has for it, which comes no later and is kept. Returns how many went.
+std::size_t join(Mesh& mesh, LargeArray<PointId> renumbered)
+{
+    // In ascending order the point that a set keeps has been renumbered before the others of the set look it up.
+    const std::size_t before = mesh.points.size();
+    PointId kept = 0;
+    for (std::size_t i = 0; i < before; ++i) {
+        if (renumbered[i] != i) {
+            renumbered[i] = renumbered[renumbered[i]];
+            continue;
+        }
+        mesh.points[kept] = mesh.points[i];
+        if (!mesh.scalars.empty())
+            mesh.scalars[kept] = mesh.scalars[i];
+        renumbered[i] = kept++;
+    }
+    mesh.points.resize(kept);
+    if (!mesh.scalars.empty())
+        mesh.scalars.resize(kept);
+
+    oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), 4096), [&](const Range& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+            // An index out of range stays out of range, for `validate` to name.
+            if (mesh.vertices[i] < before)
+                mesh.vertices[i] = renumbered[mesh.vertices[i]];
+    });
+    return before - kept;
+}
+
 } // namespace
 
 void Mesh::add(CellShape shape, std::span<const std::uint32_t> cell_vertices)
@@ -162,31 +221,15 @@ void validate(const Mesh& mesh)
 std::size_t weld(Mesh& mesh)
 {
     check_point_arrays(mesh);
-    // In ascending order the point that a set keeps has been renumbered before the others of the set look it up.
-    LargeArray<PointId> renumbered = lowest_equal_points(mesh.points);
-    const std::size_t before = mesh.points.size();
-    PointId kept = 0;
-    for (std::size_t i = 0; i < before; ++i) {
-        if (renumbered[i] != i) {
-            renumbered[i] = renumbered[renumbered[i]];
-            continue;
-        }
-        mesh.points[kept] = mesh.points[i];
-        if (!mesh.scalars.empty())
-            mesh.scalars[kept] = mesh.scalars[i];
-        renumbered[i] = kept++;
-    }
-    mesh.points.resize(kept);
-    if (!mesh.scalars.empty())
-        mesh.scalars.resize(kept);
+    return join(mesh, lowest_equal_points(mesh.points));
+}
 
-    oneapi::tbb::parallel_for(Range(0, mesh.vertices.size(), 4096), [&](const Range& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-            // An index out of range stays out of range, for `validate` to name.
-            if (mesh.vertices[i] < before)
-                mesh.vertices[i] = renumbered[mesh.vertices[i]];
-    });
-    return before - kept;
+std::size_t weld(Mesh& mesh, double tolerance)
+{
+    if (!(tolerance >= 0 && std::isfinite(tolerance)))
+        throw InputError(fmt::format("points cannot be joined within a distance of {}", tolerance));
+    const std::size_t equal = weld(mesh);
+    return tolerance > 0 ? equal + join(mesh, first_near_points(mesh.points, tolerance)) : equal;
 }
 
 } // namespace visorder

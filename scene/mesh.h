@@ -37,4 +37,10 @@ void validate(const Mesh& mesh);
 /// index, with its scalar; points keep their relative order. Returns how many points went.
 std::size_t weld(Mesh& mesh);
 
+/// Joins points that lie within `tolerance` of each other, a distance of 0 or more: in the order of their indices, each
+/// joins the first of the points kept so far that is near enough, or is kept itself. So two points that are joined lie
+/// up to twice the tolerance apart. Exactly equal ones are joined in any case. Returns how many points went. Throws
+/// InputError for a tolerance that is negative or not finite.
+std::size_t weld(Mesh& mesh, double tolerance);
+
 } // namespace visorder

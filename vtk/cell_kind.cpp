@@ -1,35 +1,37 @@
 #include "vtk/cell_kind.h"
 
+#include <array>
 #include <vtkCellType.h>
 
 namespace visorder {
 
 namespace {
 
-using Use = CellKind::Use;
-
 CellKind solid(CellShape shape, bool higher_order = false, bool grid_ordered = false)
 {
-    return {Use::solid, shape, static_cast<std::size_t>(vertex_count(shape)), higher_order, grid_ordered};
+    constexpr std::array listed{ListedShape::polygon, ListedShape::tetrahedron, ListedShape::pyramid,
+                                ListedShape::wedge, ListedShape::hexahedron};
+    return {listed[static_cast<std::size_t>(shape)], static_cast<std::size_t>(vertex_count(shape)), higher_order,
+            grid_ordered};
 }
 
 CellKind polygon(std::size_t corners, bool higher_order = false, bool grid_ordered = false)
 {
-    return {Use::polygon, CellShape::triangle, corners, higher_order, grid_ordered};
+    return {ListedShape::polygon, corners, higher_order, grid_ordered};
 }
 
-CellKind other(Use use)
+CellKind other(ListedShape shape, std::size_t corners = 0)
 {
-    return {use, CellShape::triangle, 0, false, false};
+    return {shape, corners, false, false};
 }
 
 } // namespace
 
-CellKind cell_kind(int vtk_type)
+std::optional<CellKind> cell_kind(int vtk_type)
 {
     switch (vtk_type) {
     case VTK_EMPTY_CELL:
-        return other(Use::empty);
+        return other(ListedShape::empty);
 
     case VTK_VERTEX:
     case VTK_POLY_VERTEX:
@@ -41,7 +43,7 @@ CellKind cell_kind(int vtk_type)
     case VTK_HIGHER_ORDER_EDGE:
     case VTK_LAGRANGE_CURVE:
     case VTK_BEZIER_CURVE:
-        return other(Use::lower);
+        return other(ListedShape::lower);
 
     case VTK_TRIANGLE:
         return polygon(3);
@@ -52,7 +54,7 @@ CellKind cell_kind(int vtk_type)
     case VTK_POLYGON:
         return polygon(0);
     case VTK_TRIANGLE_STRIP:
-        return other(Use::strip);
+        return other(ListedShape::strip);
     case VTK_QUADRATIC_TRIANGLE:
     case VTK_BIQUADRATIC_TRIANGLE:
     case VTK_LAGRANGE_TRIANGLE:
@@ -97,8 +99,17 @@ CellKind cell_kind(int vtk_type)
     case VTK_BEZIER_HEXAHEDRON:
         return solid(CellShape::hexahedron, true);
 
+    case VTK_PENTAGONAL_PRISM:
+        return other(ListedShape::pentagonal_prism, 10);
+    case VTK_HEXAGONAL_PRISM:
+        return other(ListedShape::hexagonal_prism, 12);
+    case VTK_CONVEX_POINT_SET:
+        return other(ListedShape::convex_hull);
+    case VTK_POLYHEDRON:
+        return other(ListedShape::polyhedron);
+
     default:
-        return other(Use::unsupported);
+        return {};
     }
 }
 

@@ -1,4 +1,6 @@
+#include "files/time_step.h"
 #include "scene/error.h"
+#include "vtk/legacy_check.h"
 #include "vtk/message_capture.h"
 #include "vtk/vtk_file.h"
 
@@ -21,11 +23,12 @@ bool has_signature(const std::filesystem::path& path)
 
 } // namespace
 
-VtkFile read_legacy_file(const std::filesystem::path& path)
+VtkFile read_legacy_file(const std::filesystem::path& path, const std::string& time)
 {
     if (!has_signature(path))
         throw InputError(fmt::format("{}: cannot be read: not a legacy VTK file", path.string()));
 
+    check_legacy_file(path);
     const vtkNew<vtkDataSetReader> reader;
     reader->SetFileName(path.c_str());
     reader->ReadAllScalarsOn();
@@ -34,7 +37,8 @@ VtkFile read_legacy_file(const std::filesystem::path& path)
     std::vector<std::string> notes = run_reader(path, [&] { reader->Update(); });
     if (!reader->GetOutput())
         throw InputError(fmt::format("{}: cannot be read: it holds no VTK data set", path.string()));
-    return {path, {reader->GetOutput()}, "", std::move(notes)};
+    choose_time_step(path, {}, time, notes);
+    return {path, {{reader->GetOutput(), ""}}, false, std::move(notes)};
 }
 
 } // namespace visorder

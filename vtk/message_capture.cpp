@@ -82,6 +82,14 @@ private:
     vtkLogger::Verbosity verbosity_;
 };
 
+/// The first error that tells more than that there was one.
+std::string most_telling(const std::vector<std::string>& errors)
+{
+    const auto found = std::find_if(errors.begin(), errors.end(),
+                                    [](const std::string& error) { return !error.starts_with("Algorithm vtk"); });
+    return found == errors.end() ? "VTK cannot make a data set of it" : *found;
+}
+
 } // namespace
 
 std::vector<std::string> run_reader(const std::filesystem::path& file, const std::function<void()>& read)
@@ -102,7 +110,7 @@ std::vector<std::string> run_reader(const std::filesystem::path& file, const std
         }
     }
     if (!window->errors.empty())
-        throw InputError(fmt::format("{}: cannot be read: {}", file.string(), window->errors.front()));
+        throw InputError(fmt::format("{}: cannot be read: {}", file.string(), most_telling(window->errors)));
     if (!thrown.empty())
         throw InputError(fmt::format("{}: cannot be read: {}", file.string(), thrown));
     return window->warnings;

@@ -1,12 +1,26 @@
+#include "vtk/xml_file.h"
+
+#include "files/printable.h"
+#include "files/time_step.h"
 #include "scene/error.h"
 #include "vtk/message_capture.h"
-#include "vtk/vtk_file.h"
+#include "vtk/xml_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
+#include <vtkInformation.h>
 #include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPImageDataReader.h>
+#include <vtkXMLPRectilinearGridReader.h>
+#include <vtkXMLPStructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLRectilinearGridReader.h>
+#include <vtkXMLStructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 namespace visorder {
@@ -24,16 +38,104 @@ bool has_closing_tag(const std::filesystem::path& path)
     return tail.find("</VTKFile>") != std::string::npos;
 }
 
+vtkSmartPointer<vtkXMLReader> reader_of(const std::string& type)
+{
+    if (type == "UnstructuredGrid")
+        return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+    if (type == "PolyData")
+        return vtkSmartPointer<vtkXMLPolyDataReader>::New();
+    if (type == "StructuredGrid")
+        return vtkSmartPointer<vtkXMLStructuredGridReader>::New();
+    if (type == "RectilinearGrid")
+        return vtkSmartPointer<vtkXMLRectilinearGridReader>::New();
+    if (type == "ImageData")
+        return vtkSmartPointer<vtkXMLImageDataReader>::New();
+    if (type == "PStructuredGrid")
+        return vtkSmartPointer<vtkXMLPStructuredGridReader>::New();
+    if (type == "PRectilinearGrid")
+        return vtkSmartPointer<vtkXMLPRectilinearGridReader>::New();
+    if (type == "PImageData")
+        return vtkSmartPointer<vtkXMLPImageDataReader>::New();
+    return nullptr;
+}
+
+/// The times of the steps that a file holds.
+std::vector<double> times_of(vtkXMLReader& reader)
+{
+    vtkInformation* information = reader.GetOutputInformation(0);
+    vtkInformationDoubleVectorKey* key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+    if (!information->Has(key))
+        return {};
+    const double* times = information->Get(key);
+    return {times, times + information->Length(key)};
+}
+
 } // namespace
 
-VtkFile read_xml_file(const std::filesystem::path& path)
+std::string declared_xml_type(const std::filesystem::path& path)
 {
-    const vtkNew<vtkXMLUnstructuredGridReader> reader;
+    std::ifstream file(path, std::ios::binary);
+    std::string head(4096, '\0');
+    file.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(file.gcount()));
+    const std::size_t tag = head.find("<VTKFile");
+    if (tag == std::string::npos)
+        return {};
+    const std::string_view attributes = std::string_view(head).substr(tag, head.find('>', tag) - tag);
+    for (std::size_t at = attributes.find("type"); at != std::string_view::npos; at = attributes.find("type", at + 1)) {
+        const std::size_t equals = attributes.find_first_not_of(" \t\r\n", at + 4);
+        if (equals == std::string_view::npos || attributes[equals] != '=' || attributes[at - 1] == '_')
+            continue; // header_type
+        const std::size_t quote = attributes.find_first_of("\"'", equals);
+        if (quote != std::string_view::npos)
+            return std::string(attributes.substr(quote + 1, attributes.find(attributes[quote], quote + 1) - quote - 1));
+    }
+    return {};
+}
+
+bool is_xml_data_set(const std::string& type)
+{
+    return reader_of(type) != nullptr;
+}
+
+VtkFile read_xml_data_set(const std::filesystem::path& path, const std::string& type, const std::string& time)
+{
+    check_xml_file(path);
+    const vtkSmartPointer<vtkXMLReader> reader = reader_of(type);
     reader->SetFileName(path.c_str());
-    std::vector<std::string> notes = run_reader(path, [&] { reader->Update(); });
+    VtkFile file{path, {}, false, {}};
+    file.notes = run_reader(path, [&] { reader->UpdateInformation(); });
+    reader->SetTimeStep(static_cast<int>(choose_time_step(path, times_of(*reader), time, file.notes)));
+
+    auto* in_pieces = vtkXMLUnstructuredDataReader::SafeDownCast(reader);
+    const int pieces =
+        in_pieces ? static_cast<int>(std::clamp<vtkIdType>(in_pieces->GetNumberOfPieces(), 1, 1 << 20)) : 1;
+    for (int piece = 0; piece < pieces; ++piece) {
+        for (std::string& note : run_reader(path, [&] {
+                 if (pieces == 1)
+                     reader->Update();
+                 else
+                     in_pieces->UpdatePiece(piece, pieces, 0);
+             }))
+            file.notes.push_back(std::move(note));
+        auto* output = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+        if (!output)
+            throw InputError(fmt::format("{}: cannot be read: it holds no VTK data set", path.string()));
+        const auto part = vtkSmartPointer<vtkDataSet>::Take(output->NewInstance());
+        part->ShallowCopy(output);
+        file.parts.push_back({part, ""});
+    }
     if (!has_closing_tag(path))
         throw InputError(fmt::format("{}: cannot be read: it is cut short, there is no </VTKFile>", path.string()));
-    return {path, {reader->GetOutput()}, "", std::move(notes)};
+    return file;
+}
+
+VtkFile read_xml_file(const std::filesystem::path& path, const std::string& time)
+{
+    const std::string type = declared_xml_type(path);
+    if (is_xml_data_set(type))
+        return read_xml_data_set(path, type, time);
+    return read_xml_collection(path, type, time);
 }
 
 } // namespace visorder

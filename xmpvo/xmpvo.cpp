@@ -42,6 +42,11 @@ Guarantee Xmpvo::guarantee() const
 // Fills pairs_ with those of exit and entry faces that follow each other along a ray.
 void Xmpvo::shoot(const glm::dvec4& eye)
 {
+    pairs_.clear();
+    ray_count_ = hit_count_ = 0;
+    silhouette_ = {};
+    if (eye == glm::dvec4(0)) // no doubles hold it in unit coordinates, so none of its rays either
+        return;
     const RaysFromEye rays(eye);
     oneapi::tbb::enumerable_thread_specific<Found> found_by_threads;
     const auto shoot_through = [&](std::span<const glm::dvec3> targets) {
@@ -62,8 +67,6 @@ void Xmpvo::shoot(const glm::dvec4& eye)
     silhouette_ =
         rays_ == XmpvoRays::crossings ? visit_crossings(surface_, sides_, eye, shoot_through) : SilhouetteCounts{};
 
-    pairs_.clear();
-    ray_count_ = hit_count_ = 0;
     for (const Found& found : found_by_threads) {
         pairs_.insert(pairs_.end(), found.pairs.pairs().begin(), found.pairs.pairs().end());
         ray_count_ += found.ray_count;

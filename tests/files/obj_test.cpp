@@ -72,11 +72,42 @@ TEST(Obj, ReadsWhatOtherProgramsWrite)
     EXPECT_EQ(file.mesh.points[1], glm::dvec3(1, 0, 0));
 }
 
+TEST(Obj, PassesOverAByteOrderMark)
+{
+    EXPECT_THAT(read("\xef\xbb\xbf" + square + "f 1 2 3\n").mesh.vertices, ElementsAre(0, 1, 2));
+    EXPECT_THAT(read("\xef\xbb\xbf# model\n" + square + "f 1 2 3\n").mesh.vertices, ElementsAre(0, 1, 2));
+}
+
+TEST(Obj, GoesOnInTheNextLineWhateverEndsIt)
+{
+    for (const std::string end : {"\n", "\r\n", "  \n", " \r\n"})
+        EXPECT_THAT(read(square + "f 1 \\" + end + "2 \\" + end + "3" + end).mesh.vertices, ElementsAre(0, 1, 2));
+}
+
+TEST(Obj, TakesBlanksAtTheEndOfLinesAndOfTheFile)
+{
+    EXPECT_THAT(read(square + "f 1 2 3 \t \r\n" + std::string(5000, '\n') + std::string(5000, ' ')).mesh.vertices,
+                ElementsAre(0, 1, 2));
+    EXPECT_THAT(read(square + "f 1 2 3").mesh.vertices, ElementsAre(0, 1, 2));
+}
+
+TEST(Obj, LeavesOutFreeFormSurfacesWithANote)
+{
+    const MeshFile file = read(square + "f 1 2 3\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nend\n");
+    EXPECT_THAT(file.mesh.vertices, ElementsAre(0, 1, 2));
+    EXPECT_THAT(file.notes, ElementsAre("1 free-form curves and surfaces left out", "1 points that no cell uses left out"));
+}
+
+TEST(Obj, NumbersCellsAsTheFileListsThem)
+{
+    EXPECT_THAT(read(square + "l 1 2\nf 1 2 3 4\np 1\nf 1 2 3\n").file_cells, ElementsAre(1, 1, 3));
+}
+
 TEST(Obj, LeavesOutPointsAndLines)
 {
     const MeshFile file = read(square + "v 5 5 5\np 1\nl 1 2 5\nf 1 2 3 4\n");
     EXPECT_THAT(file.mesh.points, SizeIs(4));
-    EXPECT_THAT(file.notes, ElementsAre("1 polygons split into triangles", "2 points and lines left out",
+    EXPECT_THAT(file.notes, ElementsAre("1 polygons split into triangles", "2 vertices and lines left out",
                                         "1 points that no cell uses left out"));
 }
 

@@ -12,6 +12,7 @@
 #include <thread>
 
 using namespace visorder;
+using namespace visorder::tests;
 using testing::HasSubstr;
 
 namespace {

@@ -1,8 +1,10 @@
 #include "scene/error.h"
 #include "scene/mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
@@ -167,6 +169,43 @@ TEST(Weld, AgreesWithAnOrderedMap)
         EXPECT_EQ(weld(mesh), 2000 - kept.size());
         EXPECT_EQ(mesh.points, kept);
         EXPECT_EQ(mesh.vertices, vertices);
+    }
+}
+
+TEST(Weld, JoinsPointsWithinATolerance)
+{
+    Mesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {1e-9, 0, -1e-9}, {1, 1e-7, 0}, {0, 1, 0}, {0, 0, 1}, {0, 1 + 1e-9, 0}};
+    mesh.scalars = {0, 1, 2, 3, 4, 5, 6};
+    mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{2, 3, 6, 5});
+    Mesh exactly = mesh;
+    EXPECT_EQ(weld(exactly, 0), 0u);
+    EXPECT_EQ(weld(mesh, 1e-8), 2u);
+    EXPECT_EQ(mesh.points, (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1e-7, 0}, {0, 1, 0}, {0, 0, 1}}));
+    EXPECT_EQ(mesh.scalars, (std::vector<float>{0, 1, 3, 4, 5}));
+    EXPECT_EQ(mesh.vertices, (std::vector<PointId>{0, 2, 3, 4}));
+    for (const double bad : {-1e-3, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+        EXPECT_THROW(weld(mesh, bad), InputError);
+}
+
+TEST(Weld, WithAToleranceAgreesWithTryingAllPoints)
+{
+    std::mt19937 random(4);
+    for (int round = 0; round < 20; ++round) {
+        Mesh mesh;
+        const double far = round % 2 == 0 ? 0 : 1e6;
+        std::uniform_real_distribution<double> coordinate(far, far + 1);
+        for (int i = 0; i < 400; ++i)
+            mesh.points.emplace_back(coordinate(random), coordinate(random), -coordinate(random));
+        mesh.add(CellShape::tetrahedron, std::array<PointId, 4>{0, 1, 2, 3});
+        const double tolerance = 0.02 * (1 + round);
+        std::vector<glm::dvec3> kept;
+        for (const glm::dvec3& p : mesh.points)
+            if (std::none_of(kept.begin(), kept.end(),
+                             [&](const glm::dvec3& other) { return glm::distance(p, other) <= tolerance; }))
+                kept.push_back(p);
+        weld(mesh, tolerance);
+        EXPECT_EQ(mesh.points, kept) << "round " << round;
     }
 }
 

@@ -3,8 +3,11 @@
 #include "files/read_mesh.h"
 #include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
+#include "scene/scene.h"
+#include "scene/subdivision.h"
 #include "vtu_text.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <numeric>
 #include <vtkCellType.h>
@@ -95,13 +98,76 @@ TEST(CellKinds, TakesTheCornersOfCellsOfHigherOrder)
     }
 }
 
-TEST(CellKinds, RefusesSolidsWithoutAShape)
+TEST(CellKinds, RefusesWhatHasNoShape)
 {
     VtuText vtu = cell_of(VTK_HEXAHEDRON, 8);
-    vtu.cells.push_back({VTK_PENTAGONAL_PRISM, {0, 1, 2, 3, 4, 5, 6, 7, 0, 1}});
-    EXPECT_EQ(reading_error(folder.write("mesh.vtu", vtu.str())), "cell 1: there is no shape for a vtkPentagonalPrism");
-    EXPECT_THAT(reading_error(folder.write("mesh.vtu", cell_of(VTK_CONVEX_POINT_SET, 6).str())),
-                HasSubstr("vtkConvexPointSet"));
+    vtu.cells.push_back({VTK_PARAMETRIC_TETRA_REGION, {0, 1, 2, 3}});
+    EXPECT_THAT(reading_error(folder.write("mesh.vtu", vtu.str())), HasSubstr("cell 1: there is no shape for a "));
+}
+
+TEST(CellKinds, CutsAPrismBesideAHexahedronAlikeOnBothSides)
+{
+    // A regular prism over a pentagon or hexagon, and a hexahedron on its last side: whatever way round the points are
+    // numbered, each triangle inside the mesh has two tetrahedra.
+    for (const auto& [type, sides] : {std::pair{VTK_PENTAGONAL_PRISM, 5}, {VTK_HEXAGONAL_PRISM, 6}})
+        for (int turn = 0; turn < sides; ++turn) {
+            VtuText vtu;
+            std::vector<int> prism;
+            const auto number = [&](int i, int level) { return (i + turn) % sides + level * sides; };
+            vtu.points.resize(static_cast<std::size_t>(2 * sides + 4));
+            for (int level = 0; level < 2; ++level)
+                for (int i = 0; i < sides; ++i) {
+                    const double angle = 2 * 3.14159 * i / sides;
+                    vtu.points[static_cast<std::size_t>(number(i, level))] = {std::cos(angle), std::sin(angle),
+                                                                             double(level)};
+                    prism.push_back(number(i, level));
+                }
+            for (int level = 0; level < 2; ++level)
+                for (int i = 0; i < 2; ++i) {
+                    const auto& p = vtu.points[static_cast<std::size_t>(number(i, level))];
+                    vtu.points[static_cast<std::size_t>(2 * sides + 2 * level + i)] = {p[0] + 2, p[1] + 2, p[2]};
+                }
+            const int outer = 2 * sides;
+            vtu.cells = {{type, prism},
+                         {VTK_HEXAHEDRON,
+                          {number(0, 0), outer, outer + 1, number(1, 0), number(0, 1), outer + 2, outer + 3, number(1, 1)}}};
+            const MeshFile file = read(vtu);
+            EXPECT_EQ(std::count(file.file_cells.begin(), file.file_cells.end(), 1u), 1);
+            EXPECT_THAT(file.notes, ElementsAre("1 prisms, convex point sets and polyhedra cut into tetrahedra"));
+
+            const Scene scene(subdivide(file.mesh).mesh);
+            EXPECT_EQ(scene.traits().inverted_cells, 0u);
+            EXPECT_TRUE(scene.traits().face_to_face);
+            // Outside: two ends as fans, and two triangles for each side and end of the hexahedron that is not inside.
+            EXPECT_EQ(scene.boundary().faces.size(), static_cast<std::size_t>(2 * (sides - 2) + 2 * (sides - 1) + 10))
+                << sides << " sides, turned by " << turn;
+        }
+}
+
+TEST(CellKinds, CutsTheConvexHullOfItsPoints)
+{
+    // The corners of a cube, and points in its middle, on an edge and on a face, which are no corners.
+    VtuText vtu;
+    for (int i = 0; i < 8; ++i)
+        vtu.points.push_back({double(i & 1), double(i >> 1 & 1), double(i >> 2)});
+    vtu.points.insert(vtu.points.end(), {{0.5, 0.5, 0.5}, {0.5, 0, 0}, {0.5, 0.5, 0}});
+    vtu.cells = {{VTK_CONVEX_POINT_SET, {10, 3, 7, 1, 0, 9, 2, 4, 8, 6, 5}}};
+    const Scene scene(read(vtu).mesh);
+    EXPECT_EQ(scene.traits().inverted_cells, 0u);
+    EXPECT_EQ(scene.boundary().faces.size(), 12u);
+    EXPECT_TRUE(scene.traits().convex);
+    EXPECT_EQ(scene.mesh().points.size(), 8u);
+}
+
+TEST(CellKinds, LeavesOutAConvexPointSetWithoutVolume)
+{
+    VtuText vtu = square();
+    vtu.points.push_back({0.5, 0.5, 1});
+    vtu.cells = {{VTK_CONVEX_POINT_SET, {0, 1, 2, 3}}, {VTK_PYRAMID, {0, 1, 2, 3, 4}}};
+    const MeshFile file = read(vtu);
+    EXPECT_THAT(file.mesh.shapes, ElementsAre(CellShape::pyramid));
+    EXPECT_THAT(file.file_cells, ElementsAre(1));
+    EXPECT_THAT(file.notes, ElementsAre("1 convex point sets without volume left out"));
 }
 
 TEST(CellKinds, LeavesOutSurfacesAndLinesBesideSolids)

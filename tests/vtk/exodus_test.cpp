@@ -1,11 +1,14 @@
 #include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 #include <vtk_netcdf.h>
 
 using namespace visorder;
 using namespace visorder::tests;
+using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -154,16 +157,33 @@ TEST(Exodus, SharesPointsBetweenBlocks)
         EXPECT_THAT(file.mesh.shapes, ElementsAre(CellShape::hexahedron, CellShape::hexahedron));
         EXPECT_THAT(file.mesh.cell(0), ElementsAre(0, 1, 4, 3, 6, 7, 10, 9));
         EXPECT_THAT(file.mesh.cell(1), ElementsAre(1, 2, 5, 4, 7, 8, 11, 10));
-        EXPECT_THAT(file.notes, ElementsAre("1 points that no cell uses left out"));
+        EXPECT_THAT(file.notes, ElementsAre("time step 1 (from 0) of 2, at time 1", "1 points that no cell uses left out"));
+        EXPECT_THAT(file.file_cells, ElementsAre(0, 1));
+        ASSERT_THAT(file.blocks, SizeIs(2));
+        EXPECT_EQ(file.blocks[1].first_file_cell, 1u);
     }
 }
 
-TEST(Exodus, ReadsTheFirstTimeStepWithoutDisplacements)
+TEST(Exodus, ReadsTheLastTimeStepWithoutDisplacements)
 {
     const MeshFile file = read_mesh(write_two_blocks("blocks.e"));
     EXPECT_EQ(file.mesh.points[5], glm::dvec3(2, 1, 0));
     EXPECT_EQ(file.scalar, "Temp");
-    EXPECT_THAT(file.mesh.scalars, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+    EXPECT_THAT(file.mesh.scalars, Each(0));
+}
+
+TEST(Exodus, ReadsTheTimeStepAskedFor)
+{
+    const auto path = write_two_blocks("blocks.e");
+    for (const std::string time : {"first", "index:0", "0", "0.0"}) {
+        const MeshFile file = read_mesh(path, {.time = time});
+        EXPECT_THAT(file.mesh.scalars, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11)) << time;
+        EXPECT_EQ(file.notes.front(), "time step 0 (from 0) of 2, at time 0");
+    }
+    for (const std::string time : {"last", "index:1", "1"})
+        EXPECT_THAT(read_mesh(path, {.time = time}).mesh.scalars, Each(0)) << time;
+    for (const std::string time : {"index:2", "index:-1", "index:", "0.5", "hello", "nan"})
+        EXPECT_EQ(reading_error(path, {.time = time}), "no time \"" + time + "\"; its 2 time steps are at 0, 1");
 }
 
 TEST(Exodus, AveragesElementDataOverBlocks)
@@ -172,10 +192,23 @@ TEST(Exodus, AveragesElementDataOverBlocks)
     EXPECT_THAT(file.mesh.scalars, ElementsAre(1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3));
 }
 
-TEST(Exodus, TakesElementDataOfAllBlocksOnly)
+TEST(Exodus, TakesElementDataOfSomeBlocksAsMissingElsewhere)
 {
-    EXPECT_EQ(reading_error(write_two_blocks("blocks.ex2"), {.scalar = "Second"}),
-              "no scalar \"Second\" in all of its blocks; it has: Temp, DISPL, Both (of cells)");
+    const MeshFile file = read_mesh(write_two_blocks("blocks.ex2"), {.scalar = "Second"});
+    for (std::size_t i = 0; i < 12; ++i)
+        if (i % 3 == 0)
+            EXPECT_TRUE(std::isnan(file.mesh.scalars[i])) << i;
+        else
+            EXPECT_EQ(file.mesh.scalars[i], 7) << i;
+    EXPECT_THAT(file.notes, Contains("4 scalars are not finite"));
+    EXPECT_EQ(reading_error(write_two_blocks("blocks.ex2"), {.scalar = "Third"}),
+              "no scalar \"Third\"; it has: Temp, DISPL, Both (of cells), Second (of cells)");
+}
+
+TEST(Exodus, KnowsItsOtherEndings)
+{
+    for (const char* name : {"blocks.g", "blocks.gen", "blocks.exoII", "blocks.exii", "blocks.ex2v2", "BLOCKS.EXO"})
+        EXPECT_THAT(read_mesh(write_two_blocks(name)).mesh.shapes, SizeIs(2)) << name;
 }
 
 TEST(Exodus, RefusesAFileCutShortAnywhere)

@@ -161,9 +161,13 @@ TEST(Vtu, RefusesAFileThatIsNotThere)
 
 TEST(Vtu, RefusesAnUnknownEnding)
 {
-    const auto file = folder.write("mesh.stl", "solid");
-    EXPECT_EQ(reading_error(file), "not a name of a mesh file; they end in .vtu, .vtk, .ex2, .e, .exo, xyz.bin, .obj");
+    const auto file = folder.write("mesh.abc", "solid");
+    EXPECT_EQ(reading_error(file),
+              "not a name of a mesh file; they end in .vtu, .vts, .vtr, .vti, .vtp, .pvtu, .pvts, .pvtr, .pvti, .pvtp, "
+              ".vtm, .vtmb, .vtpc, .vtpd, .pvd, .vtk, .ex2, .e, .exo, .g, .gen, .exoii, .exii, .ex2v2, xyz.bin, .xyz, "
+              ".x, .p3d, .mesh, .meshb, .msh, .obj, .off, .ply, .stl");
     EXPECT_THAT(reading_error(folder.write("mesh", "solid")), HasSubstr("not a name of a mesh file"));
+    EXPECT_THAT(reading_error(folder.write("mesh.gz", "solid")), HasSubstr("not a name of a mesh file"));
 }
 
 TEST(Vtu, KnowsItsEndingInAnyCase)

@@ -177,7 +177,7 @@ TEST(Plot3d, RefusesFilesCutShort)
     const std::string whole_solution = solution(plain);
     for (std::size_t length = 0; length < whole_grid.size(); ++length)
         EXPECT_EQ(reading_error(folder.write("cutxyz.bin", whole_grid.substr(0, length))),
-                  "cannot be read: its length is that of no binary Plot3D file of one grid");
+                  "cannot be read: its length is that of no Plot3D file");
     const auto path = folder.write("cutxyz.bin", whole_grid);
     for (std::size_t length = 0; length < whole_solution.size(); ++length) {
         const auto cut = folder.write("cutq.bin", whole_solution.substr(0, length));
@@ -209,6 +209,6 @@ TEST(Plot3d, RefusesWhatIsNoGrid)
     for (const std::string& content : {std::string("hello"), std::string(3000, 'a'), std::string(12, '\0'),
                                        std::string(3000, '\0'), std::string(3000, '\xff')})
         EXPECT_EQ(reading_error(folder.write("noxyz.bin", content)),
-                  "cannot be read: its length is that of no binary Plot3D file of one grid");
+                  "cannot be read: its length is that of no Plot3D file");
     EXPECT_THAT(reading_error(folder.write("aq.bin", solution(plain))), HasSubstr("not a name of a mesh file"));
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace visorder {
+
+class Scene;
+
+/// Throws InputError, naming the lowest cell in the caller's numbering, for a scene of solids with a face that is not
+/// planar: such a cell is no convex body. Exact.
+void require_planar_faces(const Scene& scene);
+
+} // namespace visorder
