@@ -1,4 +1,5 @@
 #include "apps/commands.h"
+#include "apps/number_check.h"
 #include "apps/order_file.h"
 #include "apps/scene_source.h"
 #include "apps/view_choice.h"
@@ -150,9 +151,11 @@ void add_check_command(CLI::App& app, Command& chosen)
                         "The order, as sort writes it: .npy, or text with a cell per line, farthest first");
     arguments->view = add_view_choice(*command);
     command->add_option("--witnesses", arguments->witnesses, "Cells, or pairs of cells, to show of each kind")
-        ->capture_default_str();
-    command->add_option("--rays", arguments->rays,
-                        "Also hold the order against this many rays, which know no relations");
+        ->capture_default_str()
+        ->check(count_from(0));
+    command
+        ->add_option("--rays", arguments->rays, "Also hold the order against this many rays, which know no relations")
+        ->check(count_from(0));
     command->add_flag("--pairs", arguments->pairs,
                       "Also try all pairs of cells, from their vertices alone (unasked up to 2000 cells)");
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });

@@ -1,5 +1,6 @@
 #include "apps/commands.h"
 #include "apps/image_size.h"
+#include "apps/number_check.h"
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/sorter_options.h"
@@ -52,6 +53,10 @@ int run(Arguments& arguments)
         options.sorters = arguments.sorters;
     if (options.files.empty() && options.generated.empty())
         options.generated = default_scenes;
+    if (!arguments.json_file.empty())
+        require_writable(arguments.json_file);
+    if (!options.images.empty())
+        require_writable_folder(options.images);
     Comparison comparison;
     {
         Progress progress;
@@ -67,11 +72,13 @@ int run(Arguments& arguments)
     if (comparison.scenes.empty())
         return exit_bad_input;
     const int views = comparison.runs.empty() ? 0 : comparison.runs.back().view + 1;
-    fmt::print("{}, {} thread{}; {} views a scene: times are medians over them, counts are sums\n\n{}", machine.cpu,
-               machine.threads, machine.threads == 1 ? "" : "s", views,
-               table(comparison, isatty(STDOUT_FILENO) != 0, arguments.statistics));
+    std::FILE* const out = message_stream({arguments.json_file});
+    fmt::print(out, "{}, {} thread{}; {} views a scene: times are medians over them, counts are sums\n\n{}",
+               machine.cpu, machine.threads, machine.threads == 1 ? "" : "s", views,
+               table(comparison, isatty(fileno(out)) != 0, arguments.statistics));
     if (!comparison.refused.empty())
-        fmt::print("\nnot compared, for what standard error says: {}\n", fmt::join(refused_names(comparison), ", "));
+        fmt::print(out, "\nnot compared, for what standard error says: {}\n",
+                   fmt::join(refused_names(comparison), ", "));
     return !comparison.refused.empty() ? exit_bad_input : comparison.failed() ? exit_wrong : exit_success;
 }
 
@@ -84,14 +91,18 @@ void add_compare_command(CLI::App& app, Command& chosen)
     CLI::App* command =
         app.add_subcommand("compare", "Run sorters on scenes: what each costs and what each gets wrong");
     command->add_option("mesh", options.files, "Meshes: .vtu, .vtk, .ex2, .e, .exo, ...xyz.bin, .obj");
-    command->add_option("--scene", options.generated, "Generated scenes, NAME[:SIZE[:SEED]]")->delimiter(',');
-    command->add_option("--sorters", arguments->sorters, "Sorters, a,b,... (default: all)")->delimiter(',');
+    command->add_option("--scene", options.generated, "Generated scenes, NAME[:SIZE[:SEED]]")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command->add_option("--sorters", arguments->sorters, "Sorters, a,b,... (default: all)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_option("--views", options.views, "Random views of each scene")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
     command->add_flag("--hard", options.hard_views, "Also the views from which orders go wrong first");
     command->add_option("--size", arguments->size, "Pixels of a view, WxH")->capture_default_str();
-    command->add_option("--seed", options.seed, "Of the random views")->capture_default_str();
+    command->add_option("--seed", options.seed, "Of the random views")->capture_default_str()->check(count_from(0));
     command->add_option("--repeats", options.repeats, "Timed sorts a view, of which the median counts")
         ->capture_default_str()
         ->check(CLI::Range(5, 1000));
@@ -110,7 +121,7 @@ void add_compare_command(CLI::App& app, Command& chosen)
         ->check(CLI::Range(0, 10000));
     command->add_option("--images", options.images,
                         "A folder to keep the frames in, and how they differ from the exact order's, tenfold");
-    command->add_option("--json", arguments->json_file, "Write every run to a file");
+    command->add_option("--json", arguments->json_file, "Write every run to a file; - for standard output");
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -1,5 +1,6 @@
 #include "apps/commands.h"
 #include "apps/image_size.h"
+#include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/scene_source.h"
 #include "bench/layer_pictures.h"
@@ -172,6 +173,7 @@ int run(const Arguments& arguments)
     for (const std::string& text : arguments.sizes)
         sizes.push_back(image_size(text, "--size"));
     const GlPlatform platform = gl_platform(arguments.gl);
+    require_writable_folder(arguments.folder);
     SourcedMesh sourced = load(*arguments.source);
     const NamedSurface surface = surface_of(sourced);
     const Mesh& mesh = surface.mesh;
@@ -235,7 +237,8 @@ void add_layers_command(CLI::App& app, Command& chosen)
         "layers", "Extract the layers of a surface, or of a boundary: what it costs, how deep it is, and pictures");
     arguments->source = add_scene_source(*command);
     command->add_option("--size", arguments->sizes, "Pixels of the images, WxH,WxH,... (default: 256x256,512x512)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command->add_option("--frames", arguments->frames, "Views, once around the model")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));

@@ -22,6 +22,32 @@ int bad_input(const std::string& message)
     return visorder::apps::exit_bad_input;
 }
 
+bool command_named(const CLI::App& app, const std::string& word)
+{
+    return !app.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; }).empty();
+}
+
+/// The word that stands where a command is due, if it is none.
+std::string unknown_command(const CLI::App& app, int argc, char** argv)
+{
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--threads")
+            ++i; // its number
+        else if (!word.starts_with('-'))
+            return command_named(app, word) ? "" : word;
+    }
+    return "";
+}
+
+std::string command_names(const CLI::App& app)
+{
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names += (names.empty() ? "" : ", ") + command->get_name();
+    return names;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -49,6 +75,8 @@ int main(int argc, char** argv)
     } catch (const CLI::Success& success) {
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
+        if (const std::string word = unknown_command(app, argc, argv); !word.empty())
+            return bad_input(fmt::format("there is no command \"{}\"; there are: {}", word, command_names(app)));
         return bad_input(error.what());
     }
     try {

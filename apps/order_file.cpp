@@ -121,7 +121,7 @@ std::vector<std::uint64_t> cells_of_text(const std::filesystem::path& file, cons
 
 void write_order(const std::filesystem::path& file, std::span<const std::uint64_t> cells)
 {
-    write_file(file, file.extension() == ".npy" ? npy_of(cells) : text_of(cells));
+    write_file(file, small_ending(file) == ".npy" ? npy_of(cells) : text_of(cells));
 }
 
 std::vector<std::uint64_t> read_order(const std::filesystem::path& file)
@@ -133,7 +133,7 @@ std::vector<std::uint64_t> read_order(const std::filesystem::path& file)
     } catch (const InputError& error) {
         bad(file, error.what());
     }
-    return file.extension() == ".npy" ? cells_of_npy(file, bytes) : cells_of_text(file, bytes);
+    return small_ending(file) == ".npy" ? cells_of_npy(file, bytes) : cells_of_text(file, bytes);
 }
 
 } // namespace visorder::apps

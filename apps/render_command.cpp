@@ -1,5 +1,7 @@
 #include "apps/commands.h"
 #include "apps/image_size.h"
+#include "apps/number_check.h"
+#include "apps/output_file.h"
 #include "apps/scene_source.h"
 #include "apps/sorter_options.h"
 #include "apps/view_choice.h"
@@ -44,12 +46,13 @@ struct Arguments {
     std::string output;
 };
 
-// The ending says which kind of file.
+// The ending says which kind of file; standard output gets a PNG.
 bool is_exr(const std::filesystem::path& file)
 {
-    if (file.extension() == ".exr")
+    const std::string ending = small_ending(file);
+    if (ending == ".exr")
         return true;
-    if (file.extension() != ".png")
+    if (ending != ".png" && !is_standard_output(file))
         throw InputError(fmt::format("{}: a picture's name ends in .png or .exr", file.string()));
     return false;
 }
@@ -104,22 +107,21 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     Order order;
     sorter->sort(view, order);
     const Image image = renderer.draw(view, order);
-    if (exr)
-        write_exr(image, arguments.output);
-    else
-        write_png(image, arguments.output,
-                  {{arguments.background[0], arguments.background[1], arguments.background[2]}, true});
+    const PngStyle style{{arguments.background[0], arguments.background[1], arguments.background[2]}, true};
+    write_file(arguments.output, exr ? exr_of(image) : png_of(image, style));
     const RenderStatistics& taken = renderer.statistics();
-    fmt::print("{}: {} x {}, {} cells as {} triangles in {:.3f} s by {} and {} on {}; sorted by {} ({})\n",
+    fmt::print(message_stream({arguments.output}),
+               "{}: {} x {}, {} cells as {} triangles in {:.3f} s by {} and {} on {}; sorted by {} ({})\n",
                arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
                taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
-               context.renderer(), arguments.sorter, describe(sorter->guarantee(), scene));
+               context.renderer(), named_sorter(arguments.sorter, scene), describe(sorter->guarantee(), scene));
     return exit_success;
 }
 
 int run(const Arguments& arguments)
 {
-    is_exr(arguments.output); // says so, if it is neither, before the work
+    is_exr(arguments.output);
+    require_writable(arguments.output);
     SourcedMesh sourced = load(*arguments.source);
     return with_names_of(sourced, [&] { return run(arguments, sourced); });
 }
@@ -137,10 +139,12 @@ void add_render_command(CLI::App& app, Command& chosen)
                      "Position, focal point and up vector of a perspective camera, nine numbers with commas between")
         ->delimiter(',')
         ->expected(9)
+        ->allow_extra_args(false)
         ->excludes("--eye")
         ->excludes("--direction");
     command->add_option("--view-angle", arguments->view_angle, "Vertical, in degrees, of a perspective view")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(between(0.001, 179.999));
     command->add_option("--size", arguments->size, "Pixels, WxH")->capture_default_str();
     command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
         ->capture_default_str();
@@ -156,20 +160,29 @@ void add_render_command(CLI::App& app, Command& chosen)
                                  fmt::join(transfer_function_names(), ", ")))
         ->capture_default_str();
     command->add_option("--map", arguments->map, "The colour map to take from a ParaView file of several");
-    command->add_option("--unit-length", arguments->unit_length,
-                        "The distance over which opacities hold (default: a tenth of the scene's diameter)");
+    command
+        ->add_option("--unit-length", arguments->unit_length,
+                     "The distance over which opacities hold (default: a tenth of the scene's diameter)")
+        ->check(positive());
     command->add_option("--blending", arguments->blending_bits, "Bits of a channel: 32 or 16 (floats), or 8")
         ->capture_default_str();
-    command->add_option("--table-scalars", arguments->table_scalars,
-                        "Entries of a table along each scalar (default: 1024 in 2D, 256 in 3D)");
+    command
+        ->add_option("--table-scalars", arguments->table_scalars,
+                     "Entries of a table along each scalar (default: 1024 in 2D, 256 in 3D)")
+        ->check(count_from(1));
     command->add_option("--table-lengths", arguments->table_lengths, "Entries of a 3D table along the length")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(count_from(1));
     command->add_flag("--even-lengths", arguments->even_lengths,
                       "Space the entries along the length evenly, not as 1 - 2^-length");
     command->add_option("--background", arguments->background, "Of a PNG, three linear numbers in [0, 1]")
         ->delimiter(',')
-        ->expected(3);
-    command->add_option("-o,--output", arguments->output, "Where to: .png, or .exr for the floats")->required();
+        ->expected(3)
+        ->allow_extra_args(false)
+        ->check(between(0, 1));
+    command
+        ->add_option("-o,--output", arguments->output, "Where to: .png, or .exr for the floats; - for standard output")
+        ->required();
     command->callback([arguments, &chosen] { chosen = [arguments] { return run(*arguments); }; });
 }
 

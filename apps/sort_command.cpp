@@ -1,8 +1,10 @@
 #include "apps/commands.h"
 #include "apps/order_file.h"
+#include "apps/output_file.h"
 #include "apps/scene_source.h"
 #include "apps/sorter_options.h"
 #include "apps/view_choice.h"
+#include "scene/error.h"
 #include "sorting/registry.h"
 
 #include <fmt/format.h>
@@ -31,18 +33,25 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     write_order(arguments.output, sourced.cells.numbers(order.back_to_front));
     if (!arguments.map.empty())
         write_order(arguments.map, sourced.cells.file_cells());
-    fmt::print("{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output, order.back_to_front.size(),
-               arguments.sorter, describe(sorter->guarantee(), scene), order.cycles.size());
+    std::FILE* const out = message_stream({arguments.output, arguments.map});
+    fmt::print(out, "{}: {} cells, farthest first, by {} ({}); {} cycles\n", arguments.output,
+               order.back_to_front.size(), named_sorter(arguments.sorter, scene), describe(sorter->guarantee(), scene),
+               order.cycles.size());
     if (sourced.source_cells != scene.cell_count())
-        fmt::print("cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
+        fmt::print(out, "cells are the tetrahedra of {} cells; --map FILE tells of which each is part\n",
                    sourced.source_cells);
     else if (!sourced.cells.whole())
-        fmt::print("cells are parts of the file's cells; --map FILE tells of which each is part\n");
+        fmt::print(out, "cells are parts of the file's cells; --map FILE tells of which each is part\n");
     return exit_success;
 }
 
 int run(const Arguments& arguments)
 {
+    if (arguments.output == arguments.map)
+        throw InputError(fmt::format("{}: both the order and the map cannot go there", arguments.output));
+    require_writable(arguments.output);
+    if (!arguments.map.empty())
+        require_writable(arguments.map);
     SourcedMesh sourced = load(*arguments.source);
     return with_names_of(sourced, [&] { return run(arguments, sourced); });
 }
@@ -60,7 +69,8 @@ void add_sort_command(CLI::App& app, Command& chosen)
     add_sorter_options(*command, arguments->sorter_options);
     command
         ->add_option("-o,--output", arguments->output,
-                     "Where to: .npy, or text with a cell per line. Cells have the numbers that they have in the file, "
+                     "Where to: .npy, or text with a cell per line; - for standard output. Cells have the numbers that "
+                     "they have in the file, "
                      "counted from 0 over all that it lists; where cells were cut into parts, the parts are "
                      "numbered from 0, cell by cell")
         ->required();

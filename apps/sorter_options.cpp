@@ -1,6 +1,7 @@
 #include "apps/sorter_options.h"
 
 #include "apps/image_size.h"
+#include "apps/number_check.h"
 #include "scene/error.h"
 
 #include <map>
@@ -14,13 +15,15 @@ void add_sorter_options(CLI::App& command, SorterOptions& options)
     command
         .add_option(
             "--rays", options.xmpvo_rays,
-            "Of xmpvo: faces (every boundary face's centre and corners) or crossings (also those of silhouettes)")
+            "Of xmpvo: faces (every boundary face's centre and corners) or crossings (also those of silhouettes, of "
+            "which some four per boundary face are looked at)")
         ->transform(CLI::CheckedTransformer(rays, CLI::ignore_case).description(""))
         ->default_str("crossings")
         ->type_name("TEXT");
     command.add_flag("--windows", options.newell_windows, "Of newell: a list for each of several windows of the image");
     command.add_option("--bsp-seed", options.bsp_seed, "Of bsp-xmpvo: of the samples it takes splitting planes from")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(count_from(0));
     const auto set_layer_size = [&options](const std::string& text) {
         try {
             options.layer_size = image_size(text, "--layer-size");
@@ -37,6 +40,11 @@ void add_sorter_options(CLI::App& command, SorterOptions& options)
     command.add_option("--gl", options.gl, "Where OpenGL comes from")
         ->capture_default_str()
         ->check(CLI::IsMember({"auto", "egl", "osmesa"}));
+}
+
+std::string named_sorter(const std::string& sorter, const Scene& scene)
+{
+    return sorter == "auto" ? sorter + ": " + choose_sorter(scene).name : sorter;
 }
 
 } // namespace visorder::apps

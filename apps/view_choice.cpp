@@ -21,11 +21,14 @@ glm::dvec3 triple(const std::vector<double>& numbers, const char* option)
 std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command)
 {
     auto choice = std::make_shared<ViewChoice>();
-    CLI::Option* eye =
-        command.add_option("--eye", choice->eye, "Position of the eye, X,Y,Z")->delimiter(',')->expected(1, 3);
+    CLI::Option* eye = command.add_option("--eye", choice->eye, "Position of the eye, X,Y,Z")
+                           ->delimiter(',')
+                           ->expected(1, 3)
+                           ->allow_extra_args(false);
     command.add_option("--direction", choice->direction, "Direction towards a viewer infinitely far away, X,Y,Z")
         ->delimiter(',')
         ->expected(1, 3)
+        ->allow_extra_args(false) // which follow it, as the order of `check`
         ->excludes(eye);
     return choice;
 }

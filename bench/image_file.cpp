@@ -8,10 +8,12 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 #include <fmt/format.h>
+#include <fstream>
 #include <png.h>
 #include <utility>
 
@@ -44,9 +46,17 @@ Imf::FrameBuffer frame_buffer(Image& image, int left, int top)
     return buffer;
 }
 
+void write_bytes(const std::string& bytes, const std::filesystem::path& file)
+{
+    std::ofstream out(file, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!out.flush())
+        throw InputError(fmt::format("{}: cannot be written", file.string()));
+}
+
 } // namespace
 
-void write_png(const Image& image, const std::filesystem::path& file, const PngStyle& style)
+std::string png_of(const Image& image, const PngStyle& style)
 {
     std::vector<png_byte> bytes;
     bytes.reserve(image.pixels.size() * 3);
@@ -61,23 +71,47 @@ void write_png(const Image& image, const std::filesystem::path& file, const PngS
     png.width = static_cast<png_uint_32>(image.size.x);
     png.height = static_cast<png_uint_32>(image.size.y);
     png.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&png, file.c_str(), 0, bytes.data(), 0, nullptr) == 0)
-        throw InputError(fmt::format("{}: cannot be written: {}", file.string(), png.message));
+    png_alloc_size_t length = 0;
+    std::string file;
+    if (png_image_write_to_memory(&png, nullptr, &length, 0, bytes.data(), 0, nullptr) != 0) {
+        file.resize(length);
+        if (png_image_write_to_memory(&png, file.data(), &length, 0, bytes.data(), 0, nullptr) != 0) {
+            file.resize(length);
+            return file;
+        }
+    }
+    throw InputError(
+        fmt::format("a picture of {} x {} cannot be made a PNG: {}", image.size.x, image.size.y, png.message));
 }
 
-void write_exr(const Image& image, const std::filesystem::path& file)
+std::string exr_of(const Image& image)
 {
     try {
         Imf::Header header(image.size.x, image.size.y);
         for (const auto& [name, component] : channels)
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
         Image rows = upside_down(image);
-        Imf::OutputFile output(file.c_str(), header);
-        output.setFrameBuffer(frame_buffer(rows, 0, 0));
-        output.writePixels(image.size.y);
+        Imf::StdOSStream stream;
+        {
+            Imf::OutputFile output(stream, header);
+            output.setFrameBuffer(frame_buffer(rows, 0, 0));
+            output.writePixels(image.size.y);
+        }
+        return stream.str();
     } catch (const std::exception& error) {
-        throw InputError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+        throw InputError(fmt::format("a picture of {} x {} cannot be made an OpenEXR file: {}", image.size.x,
+                                     image.size.y, error.what()));
     }
+}
+
+void write_png(const Image& image, const std::filesystem::path& file, const PngStyle& style)
+{
+    write_bytes(png_of(image, style), file);
+}
+
+void write_exr(const Image& image, const std::filesystem::path& file)
+{
+    write_bytes(exr_of(image), file);
 }
 
 Image read_exr(const std::filesystem::path& file)

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <string>
 
 namespace visorder::bench {
 
@@ -14,6 +15,11 @@ struct PngStyle {
     /// for pictures that were made of such numbers.
     bool to_srgb = true;
 };
+
+/// An image as the content of a PNG or an OpenEXR file, as the functions below write it. Throws InputError for a size
+/// that the format cannot hold.
+std::string png_of(const Image& image, const PngStyle& style = {});
+std::string exr_of(const Image& image);
 
 /// Writes an image as PNG, 8 bits a channel, no alpha. What is outside [0, 1] is cut off. Throws InputError, naming the
 /// file, where it cannot be written.

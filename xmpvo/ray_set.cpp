@@ -131,28 +131,97 @@ private:
 
 using Segment = Chart::Segment;
 
-// Visits the four points beside the crossing of two segments, if they do cross.
-bool visit_crossing(const Chart& chart, const Segment& s, const Segment& t, const VisitTargets& visit)
+// Where the images of two segments cross.
+struct Crossing {
+    double part_of_s;
+    glm::dvec2 between, other; // offsets into the sectors
+};
+
+std::optional<Crossing> crossing_of(const Segment& s, const Segment& t)
 {
     if (s.point_a == t.point_a || s.point_a == t.point_b || s.point_b == t.point_a || s.point_b == t.point_b)
-        return false;
+        return std::nullopt;
     const glm::dvec2 along_s = s.image_b - s.image_a, along_t = t.image_b - t.image_a;
     const double length_s = glm::length(along_s), length_t = glm::length(along_t);
     const double turn = cross(along_s, along_t);
     if (!(std::abs(turn) > nearly_parallel * length_s * length_t))
-        return false;
+        return std::nullopt;
     const double part_of_s = cross(t.image_a - s.image_a, along_t) / turn;
     const double part_of_t = cross(t.image_a - s.image_a, along_s) / turn;
     if (part_of_s < 0 || part_of_s > 1 || part_of_t < 0 || part_of_t > 1)
-        return false;
+        return std::nullopt;
     const double distance = std::max(beside * std::min(length_s, length_t), least_beside);
     const glm::dvec2 unit_s = along_s / length_s, unit_t = along_t / length_t;
-    const glm::dvec2 between = glm::normalize(unit_s + unit_t) * distance;
-    const glm::dvec2 other = glm::normalize(unit_s - unit_t) * distance;
-    visit(std::array{chart.point(s, part_of_s, between), chart.point(s, part_of_s, other),
-                     chart.point(s, part_of_s, -between), chart.point(s, part_of_s, -other)});
-    return true;
+    return Crossing{part_of_s, glm::normalize(unit_s + unit_t) * distance, glm::normalize(unit_s - unit_t) * distance};
 }
+
+// Visits the four points beside a crossing.
+void visit_crossing(const Chart& chart, const Segment& s, const Crossing& crossing, const VisitTargets& visit)
+{
+    const auto& [part, between, other] = crossing;
+    visit(std::array{chart.point(s, part, between), chart.point(s, part, other), chart.point(s, part, -between),
+                     chart.point(s, part, -other)});
+}
+
+constexpr std::size_t most_crossings_per_face = 4;
+
+// Spread evenly over all numbers, whatever the two are.
+std::uint64_t scattered(std::uint32_t a, std::uint32_t b)
+{
+    std::uint64_t h = (std::uint64_t{a} << 32 | b) * 0x9e3779b97f4a7c15u;
+    h = (h ^ h >> 32) * 0xd6e8feb86659fd93u;
+    return h ^ h >> 32;
+}
+
+// The silhouette edges that one chart shows, and what finds those whose images meet.
+struct ChartEdges {
+    Chart chart;
+    std::vector<Segment> segments;
+    std::vector<Box> boxes;
+    BoxHierarchy hierarchy;
+
+    ChartEdges(const Chart& with, const BoundarySurface& surface, std::span<const std::uint32_t> edges)
+        : chart(with), segments(segments_of(with, surface, edges)), boxes(boxes_of(segments)), hierarchy(boxes)
+    {
+    }
+
+    // Calls found(segment, other segment, crossing), by several threads at once.
+    template <class Found>
+    void each_crossing(const Found& found) const
+    {
+        in_parallel(segments.size(), 32, [&](std::size_t i) {
+            hierarchy.search([&](const Box& box) { return box.meets(boxes[i]); },
+                             [&](std::uint32_t k) {
+                                 if (k > i)
+                                     if (const auto crossing = crossing_of(segments[i], segments[k]))
+                                         found(segments[i], segments[k], *crossing);
+                                 return true;
+                             });
+        });
+    }
+
+private:
+    static std::vector<Segment> segments_of(const Chart& chart, const BoundarySurface& surface,
+                                            std::span<const std::uint32_t> edges)
+    {
+        std::vector<Segment> segments;
+        for (std::uint32_t edge : edges)
+            if (const auto segment = chart.segment(surface, surface.edges[edge]))
+                segments.push_back(*segment);
+        return segments;
+    }
+
+    static std::vector<Box> boxes_of(std::span<const Segment> segments)
+    {
+        std::vector<Box> boxes;
+        for (const Segment& segment : segments) {
+            Box& box = boxes.emplace_back();
+            box.add(glm::dvec3(segment.image_a, 0));
+            box.add(glm::dvec3(segment.image_b, 0));
+        }
+        return boxes;
+    }
+};
 
 bool on_silhouette(const BoundarySurface& surface, const BoundarySurface::Edge& edge, std::span<const Sign> sides)
 {
@@ -203,30 +272,27 @@ SilhouetteCounts visit_crossings(const BoundarySurface& surface, std::span<const
     for (std::uint32_t i = 0; i < surface.edges.size(); ++i)
         if (on_silhouette(surface, surface.edges[i], sides))
             edges.push_back(i);
+    std::vector<ChartEdges> charts;
     std::atomic<std::size_t> crossings = 0;
     for (const Chart& chart : Chart::around(eye)) {
-        std::vector<Segment> segments;
-        std::vector<Box> boxes;
-        for (std::uint32_t edge : edges)
-            if (const auto segment = chart.segment(surface, surface.edges[edge])) {
-                segments.push_back(*segment);
-                Box& box = boxes.emplace_back();
-                box.add(glm::dvec3(segment->image_a, 0));
-                box.add(glm::dvec3(segment->image_b, 0));
-            }
-        const BoxHierarchy hierarchy(boxes);
-        in_parallel(segments.size(), 32, [&](std::size_t i) {
-            std::size_t found = 0;
-            hierarchy.search([&](const Box& box) { return box.meets(boxes[i]); },
-                             [&](std::uint32_t k) {
-                                 if (k > i)
-                                     found += visit_crossing(chart, segments[i], segments[k], visit);
-                                 return true;
-                             });
-            crossings.fetch_add(found, std::memory_order_relaxed);
+        charts.emplace_back(chart, surface, edges);
+        charts.back().each_crossing([&](const Segment&, const Segment&, const Crossing&) {
+            crossings.fetch_add(1, std::memory_order_relaxed);
         });
     }
-    return {edges.size(), crossings};
+    const std::size_t most = most_crossings_per_face * surface.faces.size();
+    const double share = static_cast<double>(most) / static_cast<double>(std::max(most, crossings.load()));
+    const bool all = crossings <= most;
+    const auto below = static_cast<std::uint64_t>(share * 0x1p63);
+    std::atomic<std::size_t> visited = 0;
+    for (const ChartEdges& chart : charts)
+        chart.each_crossing([&](const Segment& s, const Segment& t, const Crossing& crossing) {
+            if (!all && scattered(s.point_a ^ s.point_b << 16, t.point_a ^ t.point_b << 16) >> 1 >= below)
+                return;
+            visited.fetch_add(1, std::memory_order_relaxed);
+            visit_crossing(chart.chart, s, crossing, visit);
+        });
+    return {edges.size(), crossings, visited};
 }
 
 } // namespace visorder

@@ -45,12 +45,15 @@ void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, co
 struct SilhouetteCounts {
     std::size_t edges = 0;     ///< between faces on different sides of which the eye lies
     std::size_t crossings = 0; ///< of two of them in projection
+    std::size_t visited = 0;   ///< of these
 };
 
 /// Visits, at every crossing of two silhouette edges in projection, a point in each of the four sectors between them:
 /// where one part of the boundary begins to cover another (Silva, Mitchell, Williams 1998, whose sweep stops at the
-/// same crossings). Takes time by the number of crossings and of boxes around edges that meet. Rounded; a crossing at
-/// an edge's end may be visited or not.
+/// same crossings). Where there are more than four per boundary face, as among many cells that do not touch, an even
+/// sample of about that many is visited, the same one each time: the rays would cost more than all pairs of faces.
+/// Takes time by the number of crossings and of boxes around edges that meet. Rounded; a crossing at an edge's end may
+/// be visited or not.
 SilhouetteCounts visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
                                  const VisitTargets& visit);
 

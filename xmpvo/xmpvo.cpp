@@ -96,7 +96,7 @@ std::size_t Xmpvo::bytes() const
 std::vector<Statistic> Xmpvo::statistics() const
 {
     return {{"silhouette edges", static_cast<double>(silhouette_.edges)},
-            {"crossings", static_cast<double>(silhouette_.crossings)},
+            {"crossings", static_cast<double>(silhouette_.visited), static_cast<double>(silhouette_.crossings)},
             {"rays", static_cast<double>(ray_count_)},
             {"hits", static_cast<double>(hit_count_)},
             {"pairs of faces", static_cast<double>(pairs_.size())},

@@ -227,5 +227,43 @@ TEST(Xmpvo, RefusesSurfaces)
     EXPECT_THROW(Xmpvo{scene}, InputError);
 }
 
+// Bars across one another, none of which touches another: nearly every pair of their edges crosses in projection.
+TEST(Xmpvo, LooksAtFourCrossingsPerBoundaryFaceAtMost)
+{
+    constexpr int bars = 30;
+    Mesh mesh;
+    for (int i = 0; i < 2 * bars; ++i) {
+        const double at = 2.0 * (i / 2), depth = i;
+        const auto point = [&](double along, double across, double height) {
+            mesh.points.push_back(i % 2 == 0 ? glm::dvec3(along, across, height) : glm::dvec3(across, along, height));
+        };
+        const auto first = static_cast<PointId>(mesh.points.size());
+        point(-1, at, depth);
+        point(-1, at + 0.5, depth);
+        point(2.0 * bars, at + 0.3, depth);
+        point(-1, at + 0.25, depth + 0.5);
+        mesh.add(CellShape::tetrahedron, std::array{first, first + 1, first + 2, first + 3});
+    }
+    const Scene scene(std::move(mesh));
+    Xmpvo xmpvo(scene, XmpvoRays::crossings);
+    Order order, again;
+    const View view{glm::dvec4(0.01, 0.02, 1, 0), glm::dmat4(1), {64, 64}};
+    xmpvo.sort(view, order);
+    const std::size_t faces = scene.boundary().faces.size();
+    ASSERT_EQ(faces, 8u * bars);
+    const auto statistics = xmpvo.statistics();
+    const auto crossings = std::find_if(statistics.begin(), statistics.end(), [](const Statistic& statistic) {
+        return std::string_view(statistic.name) == "crossings";
+    });
+    ASSERT_NE(crossings, statistics.end());
+    EXPECT_GT(crossings->whole, 10.0 * static_cast<double>(faces)) << "more than are looked at";
+    EXPECT_GT(crossings->value, 3.5 * static_cast<double>(faces));
+    EXPECT_LT(crossings->value, 4.5 * static_cast<double>(faces));
+    Xmpvo other(scene, XmpvoRays::crossings);
+    other.sort(view, again);
+    EXPECT_EQ(order.back_to_front, again.back_to_front) << "the same sample each time";
+    EXPECT_EQ(OrderChecker(scene).check(view.eye, order).violations, 0u);
+}
+
 } // namespace
 } // namespace visorder::tests
