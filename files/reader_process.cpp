@@ -260,7 +260,7 @@ std::filesystem::path reader_program()
     folders.emplace_back(built_reader_folder);
     folders.emplace_back(installed_reader_folder);
     for (const std::filesystem::path& folder : folders)
-        if (const auto program = folder / "visorder-read"; access(program.c_str(), X_OK) == 0)
+        if (auto program = folder / "visorder-read"; access(program.c_str(), X_OK) == 0)
             return program;
     return {};
 }
