@@ -12,6 +12,9 @@ namespace {
 constexpr GLuint pieces_unit = 0;
 constexpr GLuint first_piece_unit = 1;
 constexpr GLuint table_unit = 2;
+// Of the storage buffer that exact_shader_in_doubles reads.
+constexpr GLuint pieces_binding = 2;
+static_assert(sizeof(OpticalPieces::Piece) == 64, "as the shader declares it");
 
 void fill(const Context& context, GlObject& buffer, GlObject& texture, GLenum format, const void* data,
           std::size_t bytes)
@@ -62,10 +65,17 @@ FunctionTextures::FunctionTextures(const Context& context, Integrator integrator
 void FunctionTextures::set(const OpticalPieces& pieces)
 {
     const GlFunctions& gl = context_->gl();
-    fill(*context_, pieces_buffer_, pieces_, GL_RGBA32F, pieces.pieces.data(),
-         pieces.pieces.size() * sizeof(OpticalPieces::Piece));
-    fill(*context_, first_piece_buffer_, first_piece_, GL_R32I, pieces.first_piece.data(),
-         pieces.first_piece.size() * sizeof(std::int32_t));
+    const NarrowedPieces narrow = narrowed(pieces);
+    fill(*context_, pieces_buffer_, pieces_, GL_RGBA32F, narrow.pieces.data(),
+         narrow.pieces.size() * sizeof(NarrowedPieces::Piece));
+    fill(*context_, first_piece_buffer_, first_piece_, GL_R32I, narrow.first_piece.data(),
+         narrow.first_piece.size() * sizeof(std::int32_t));
+    if (integrator_ == Integrator::exact) {
+        pieces_in_doubles_ = GlObject(*context_, GlKind::buffer);
+        gl.NamedBufferStorage(pieces_in_doubles_.id(),
+                              static_cast<GLsizeiptr>(pieces.pieces.size() * sizeof(OpticalPieces::Piece)),
+                              pieces.pieces.data(), 0);
+    }
     const auto size = static_cast<GLsizei>(options_.scalars);
     if (integrator_ == Integrator::preintegrated_2d) {
         const std::vector<glm::vec4> table = preintegrated_2d(pieces, options_.scalars, lengths_.mean);
@@ -107,6 +117,8 @@ void FunctionTextures::bind() const
     const GlFunctions& gl = context_->gl();
     gl.BindTextureUnit(pieces_unit, pieces_.id());
     gl.BindTextureUnit(first_piece_unit, first_piece_.id());
+    if (pieces_in_doubles_)
+        gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, pieces_binding, pieces_in_doubles_.id());
     if (table_)
         gl.BindTextureUnit(table_unit, table_.id());
 }

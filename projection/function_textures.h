@@ -42,6 +42,7 @@ private:
     TableOptions options_;
     WayLengths lengths_;
     double length_scale_ = 1;
+    GlObject pieces_in_doubles_;
     GlObject pieces_buffer_, pieces_;
     GlObject first_piece_buffer_, first_piece_;
     GlObject table_;

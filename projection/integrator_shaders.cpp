@@ -28,32 +28,64 @@ vec4 optics_at(float scalar)
 )";
 
 // Extinction and colour are linear on each piece, so the optical depth t is quadratic, and by parts
-//     integral of e c exp(-t) = c0 (1 - E) + (c1 - c0) (M - E),   M = mean of exp(-t), E = exp(-t at the end).
-// M comes from Gauss's rule with three points over stretches of an optical depth of about 1.5 at most, on which it is
-// right to 1e-5.
-constexpr const char* exact_text = R"(
-void pass(inout vec3 light, inout float transmittance, float len, float e0, float e1, vec3 c0, vec3 c1)
+//     integral of e c exp(-t) = c (1 - E) + d (M - (1 + E) / 2)
+// with c the colour half way, d its change, M the mean of exp(-t) and E = exp(-t at the end). With t now that at the
+// end and u half the difference of extinctions between the ends times the length,
+//     M - (1 + E) / 2 = sqrt(E) (integral from -1/2 to 1/2 of exp(u (1/4 - v^2) - t v) dv - cosh(t / 2)),
+// of which the second factor is even in t. The polynomials are least-squares fits, weighted for an even error over
+// -1/4 < t < 1.15, |u| < |t|: 3e-8 t for 1 - E, 3e-7 t for the other; and one through Chebyshev's points for sqrt(E).
+// Written so that no long chain of operations waits for each other.
+constexpr const char* stretch_text = R"(
+// 1 - E, and M - (1 + E) / 2.
+vec2 shares_of(float t, float u)
 {
-    float whole = 0.5 * (e0 + e1) * len;
-    int parts = int(clamp(ceil(abs(whole) * (1.0 / 1.5)), 1.0, 64.0));
-    float step = 1.0 / float(parts);
-    float rise = (e1 - e0) * step;
-    vec3 change = (c1 - c0) * step;
-    len *= step;
-    for (int i = 0; i < parts; ++i) {
-        float a = -len * (e0 + float(i) * rise);
-        float b = -0.5 * len * rise;
-        float end = exp(a + b);
-        float mean = (5.0 * (exp(0.1127016654 * (a + b * 0.1127016654)) + exp(0.8872983346 * (a + b * 0.8872983346))) +
-                      8.0 * exp(0.5 * (a + b * 0.5))) * (1.0 / 18.0);
-        light += transmittance * ((c0 + float(i) * change) * (1.0 - end) + change * (mean - end));
-        transmittance *= end;
+    float tt = t * t;
+    float opacity = t * ((1.0 - 0.5 * t) + tt * ((0.166668077 - 0.0416685826 * t) +
+                    tt * ((0.00831463206 - 0.00133093150 * t) + tt * 0.000137367953)));
+    float half_through = (1.0 - 0.500020018 * t) + tt * ((0.12498342 - 0.0205256859 * t) + tt * 0.00209010653);
+    float even = -0.0833321983 + tt * (-0.00208585873 - tt * 1.74433759e-5);
+    float odd = 0.166666691 + tt * (0.00416676258 + tt * 3.64243757e-5) +
+                u * (0.0166643457 + tt * 0.000302037259 +
+                u * (0.00119012823 + tt * 2.07597860e-5 + u * 6.73259096e-5));
+    return vec2(opacity, half_through * (tt * even + u * odd));
+}
+)";
+
+// A piece is passed in stretches of an optical depth of 1 at most. Light from behind 17 of them does not count, so that
+// there are few of them however dense the medium is; where each ends is the root of a quadratic.
+constexpr const char* piece_text = R"(
+// d0 and d1: extinctions at the ends, times the piece's length.
+void pass(inout vec4 light, inout float transmittance, float d0, float d1, vec3 c0, vec3 c1)
+{
+    const float most = 1e15; // squared, it is no infinity
+    float first = clamp(d0, 0.0, most);
+    float rise = clamp(d1, 0.0, most) - first;
+    vec3 change = c1 - c0;
+    float done = 0.0;
+    while (transmittance > 4e-8) {
+        float density = max(first + done * rise, 0.0);
+        float way = 1.0 - done;
+        float depth = way * (density + 0.5 * rise * way);
+        bool last = depth <= 1.0;
+        if (!last) {
+            way = min(way, 2.0 / (density + sqrt(max(density * density + 2.0 * rise, 0.0))));
+            depth = way * (density + 0.5 * rise * way);
+        }
+        vec2 shares = shares_of(min(depth, 1.15), 0.5 * rise * way * way);
+        vec3 seen = shares.x * (c0 + (done + 0.5 * way) * change) + shares.y * way * change;
+        light += transmittance * vec4(seen, shares.x);
+        transmittance *= 1.0 - shares.x;
+        done += way;
+        if (last)
+            break;
     }
 }
+)";
 
+constexpr const char* exact_text = R"(
 vec4 light_of(float front, float back, float len, vec4 front_optics, vec4 back_optics)
 {
-    vec3 light = vec3(0.0);
+    vec4 light = vec4(0.0);
     float transmittance = 1.0;
     float rise = back - front;
     int piece = piece_at(front);
@@ -69,26 +101,76 @@ vec4 light_of(float front, float back, float len, vec4 front_optics, vec4 back_o
             end = clamp((bounds.x - front) / rise, done, 1.0);
         float s0 = front + done * rise - bounds.x;
         float s1 = front + end * rise - bounds.x;
-        pass(light, transmittance, (end - done) * len, bounds.z + s0 * bounds.w, bounds.z + s1 * bounds.w,
+        float way = (end - done) * len;
+        pass(light, transmittance, way * (bounds.z + s0 * bounds.w), way * (bounds.z + s1 * bounds.w),
              colour + s0 * colour_rise, colour + s1 * colour_rise);
         bool last = rise == 0.0 || (rise > 0.0 ? back <= bounds.y : back >= bounds.x);
-        if (last)
+        if (last || transmittance <= 4e-8)
             break;
         done = end;
         piece += rise > 0.0 ? 1 : -1;
     }
-    return vec4(light, 1.0 - transmittance);
+    return light;
 }
 )";
 
-// As above, for an OpticalPass: a part of the way cut out by its window, of an optical depth t of 1 or little more.
-// With u half the difference of extinctions between its ends times its length,
-//     M - (1 + E) / 2 = sqrt(E) (integral from -1/2 to 1/2 of exp(u (1/4 - v^2) - t v) dv - cosh(t / 2)),
-// of which the second factor is even in t. The polynomials are least-squares fits, weighted for an even error over
-// -1/4 < t < 1.15, |u| < |t|: 3e-8 t for 1 - E, 3e-7 t for the other; and one through Chebyshev's points for sqrt(E).
+// The same where single precision is not enough; see OpticalPieces::Piece.
+constexpr const char* exact_text_in_doubles = R"(
+struct Piece {
+    double begin, end, extinction, extinction_slope;
+    vec4 colour, colour_slope;
+};
+layout(std430, binding = 2) readonly buffer Pieces { Piece pieces[]; };
+
+int piece_at(double scalar)
+{
+    int low = 0, high = pieces.length() - 1;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (scalar < pieces[middle].end)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+vec4 light_in_doubles(double front, double back, double len)
+{
+    vec4 light = vec4(0.0);
+    float transmittance = 1.0;
+    double rise = back - front;
+    int piece = piece_at(front);
+    double done = 0.0;
+    for (;;) {
+        double begin = pieces[piece].begin, end = pieces[piece].end;
+        double extinction = pieces[piece].extinction, slope = pieces[piece].extinction_slope;
+        double until = 1.0;
+        if (rise > 0.0 && back > end)
+            until = clamp((end - front) / rise, done, 1.0);
+        if (rise < 0.0 && back < begin)
+            until = clamp((begin - front) / rise, done, 1.0);
+        double s0 = front + done * rise - begin;
+        double s1 = front + until * rise - begin;
+        double way = (until - done) * len;
+        vec3 colour = pieces[piece].colour.rgb, colour_rise = pieces[piece].colour_slope.rgb;
+        pass(light, transmittance, float(min(way * (extinction + s0 * slope), 1e30)),
+             float(min(way * (extinction + s1 * slope), 1e30)), colour + float(s0) * colour_rise,
+             colour + float(s1) * colour_rise);
+        bool last = rise == 0.0 || (rise > 0.0 ? back <= end : back >= begin);
+        if (last || transmittance <= 4e-8)
+            break;
+        done = until;
+        piece += rise > 0.0 ? 1 : -1;
+    }
+    return light;
+}
+)";
+
+// Of an OpticalPass: a part of the way cut out by its window, of an optical depth of 1 or little more.
 //
 // `backwards` is 1 / run. Written for renderers that have no branches and no min and max that are sure of what is no
-// number, and so that no long chain of operations waits for each other.
+// number.
 constexpr const char* optical_pass_text = R"(
 flat in float a_part; // of the way
 
@@ -113,18 +195,9 @@ vec4 light_of_pass(float one, float run, float backwards, float len, float direc
 
     float t = len * (medium.x + middle * medium_rise.x);
     float u = 0.5 * len * run * medium_rise.x;
-    // More is only in cells that are opaque many times over (see find_optical_passes), and stays opaque.
-    u = t > 1.15 ? 0.0 : u;
-    t = t > 1.15 ? 1.15 : t;
-    float tt = t * t;
-    float opacity = t * ((1.0 - 0.5 * t) + tt * ((0.166668077 - 0.0416685826 * t) +
-                    tt * ((0.00831463206 - 0.00133093150 * t) + tt * 0.000137367953)));
-    float half_through = (1.0 - 0.500020018 * t) + tt * ((0.12498342 - 0.0205256859 * t) + tt * 0.00209010653);
-    float even = -0.0833321983 + tt * (-0.00208585873 - tt * 1.74433759e-5);
-    float odd = 0.166666691 + tt * (0.00416676258 + tt * 3.64243757e-5) +
-                u * (0.0166643457 + tt * 0.000302037259 +
-                u * (0.00119012823 + tt * 2.07597860e-5 + u * 6.73259096e-5));
-    float colour_share = opacity * middle + run * half_through * (tt * even + u * odd);
+    vec2 shares = shares_of(t, u);
+    float opacity = shares.x;
+    float colour_share = opacity * middle + run * shares.y;
     return vec4(medium.yzw * opacity + medium_rise.yzw * colour_share, opacity);
 }
 )";
@@ -177,7 +250,7 @@ std::string optics_shader()
 
 std::string optical_pass_shader()
 {
-    return optical_pass_text;
+    return std::string(stretch_text) + optical_pass_text;
 }
 
 bool needs_optics(Integrator integrator)
@@ -196,9 +269,14 @@ std::string integrator_shader(Integrator integrator)
     case Integrator::preintegrated_3d:
         return preintegrated_3d_text;
     case Integrator::exact:
-        return std::string(pieces_text) + exact_text;
+        return std::string(pieces_text) + stretch_text + piece_text + exact_text;
     }
     return {};
+}
+
+std::string exact_shader_in_doubles()
+{
+    return std::string(stretch_text) + piece_text + exact_text_in_doubles;
 }
 
 } // namespace visorder

@@ -21,6 +21,14 @@ std::string integrator_shader(Integrator integrator);
 /// of a way along which the scalar runs from `one` to `one + run`, towards the eye if `swapped`.
 std::string optical_pass_shader();
 
+/// In place of either, for Integrator::exact where single precision is not enough: reads OpticalPieces from storage
+/// buffer 2 and defines
+///
+///     vec4 light_in_doubles(double front, double back, double len)
+///
+/// which is right however dense the medium is.
+std::string exact_shader_in_doubles();
+
 /// Whether an integrator interpolates colours and extinctions of vertices, so that projectors have to.
 bool needs_optics(Integrator integrator);
 

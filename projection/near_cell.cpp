@@ -32,7 +32,7 @@ PixelBox box_of(const Screen& screen, const std::array<glm::dvec3, 4>& places)
     return box;
 }
 
-std::optional<NearCell> bounded(NearCell cell, const Screen& screen, const std::array<float, 4>& scalars)
+std::optional<NearCell> bounded(NearCell cell, const Screen& screen, const std::array<double, 4>& scalars)
 {
     cell.scalar_range = {*std::min_element(scalars.begin(), scalars.end()),
                          *std::max_element(scalars.begin(), scalars.end())};
@@ -50,7 +50,7 @@ constexpr double infinitely_far = -1e300;
 } // namespace
 
 std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dvec3, 4>& points,
-                                  const std::array<float, 4>& scalars)
+                                  const std::array<double, 4>& scalars)
 {
     NearCell cell{};
     for (std::size_t i = 0; i < 4; ++i) {
@@ -64,12 +64,12 @@ std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dv
 }
 
 std::optional<NearCell> near_cell_on_screen(const Screen& screen, const std::array<glm::dvec3, 4>& at,
-                                            const std::array<float, 4>& scalars)
+                                            const std::array<double, 4>& scalars)
 {
     NearCell cell{};
     for (std::size_t i = 0; i < 4; ++i) {
         cell.places[i] = {at[i].x, at[i].y, 1};
-        cell.values[i] = {at[i].z, static_cast<double>(scalars[i]) * (1 - at[i].z * screen.inverse_distance())};
+        cell.values[i] = {at[i].z, scalars[i] * (1 - at[i].z * screen.inverse_distance())};
     }
     cell.inverse_distance = screen.inverse_distance();
     cell.first_depth = infinitely_far;

@@ -11,7 +11,8 @@ namespace visorder {
 
 /// A tetrahedron for which every pixel finds out by itself, in double precision, whether its ray passes through it: one
 /// with a point behind the eye or so close to it, or so far off the image, that it has no place on the rasteriser's
-/// lattice; or is too large for it, or one with a face that is not seen well (see VisibleCells).
+/// lattice; or is too large for it, or one with a face that is not seen well (see VisibleCells), or one so dense that
+/// single precision is not enough (see OpticalPass).
 ///
 /// A ray passes a face if it passes all its edges on one side. All cells around an edge have its two points in the same
 /// order and so agree, whatever is lost to rounding, on which side that is: no ray slips between two of them. Depths
@@ -23,18 +24,18 @@ struct NearCell {
     /// e / (1 - e inverse_distance).
     double inverse_distance;
     double first_depth; ///< where rays begin
-    glm::vec2 scalar_range;
+    glm::dvec2 scalar_range;
     glm::ivec2 low, high; ///< pixels from the image's centre, high excluded: all that it may cover lie between
 };
 
 /// By the points' positions in space, which may be anywhere. Points stand in the order of their numbers in the mesh.
 /// None for a cell that covers nothing of the image.
 std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dvec3, 4>& points,
-                                  const std::array<float, 4>& scalars);
+                                  const std::array<double, 4>& scalars);
 
 /// By where they are on the screen, which must be before the eye: x, y and depth (see ScreenPoint). From an eye that is
 /// far away, that is the better of the two.
 std::optional<NearCell> near_cell_on_screen(const Screen& screen, const std::array<glm::dvec3, 4>& at,
-                                            const std::array<float, 4>& scalars);
+                                            const std::array<double, 4>& scalars);
 
 } // namespace visorder

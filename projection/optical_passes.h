@@ -21,14 +21,23 @@ struct OpticalPass {
 
 /// The ways of all rays through a cell.
 struct CellWays {
-    float lowest, highest; ///< scalars
-    float reference;       ///< a scalar between
-    double longest;        ///< at least as long as any
-    bool rises, falls;     ///< whether the scalar does, along some ray, from Thickness' one side to the other, or may
-    bool swapped;          ///< see Thickness
+    double lowest, highest; ///< scalars
+    double reference;       ///< a scalar between
+    double longest;         ///< at least as long as any
+    bool rises, falls;      ///< whether the scalar does, along some ray, from Thickness' one side to the other, or may
+    bool swapped;           ///< see Thickness
 };
 
-/// Replaces `passes` by those of a cell, farthest first along each ray. Parts without extinction have none.
-void find_optical_passes(const OpticalPieces& pieces, const CellWays& ways, std::vector<OpticalPass>& passes);
+/// Fragments know in single precision where on a way they are. Where more than this optical depth may lie along it,
+/// that is not enough.
+constexpr double most_depth_in_single_precision = 4;
+
+/// Replaces `passes` by those of a cell, farthest first along each ray. Parts without extinction have none. False, and
+/// no passes, if the cell is too dense for single precision.
+bool find_optical_passes(const OpticalPieces& pieces, const CellWays& ways, std::vector<OpticalPass>& passes);
+
+/// Whether single precision is enough along ways through a cell even where scalars are given in it, and not relative to
+/// a scalar of the cell: where extinction changes abruptly, it is not.
+bool looked_up_in_single_precision(const OpticalPieces& pieces, double lowest, double highest, double longest);
 
 } // namespace visorder

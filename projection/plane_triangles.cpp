@@ -2,9 +2,11 @@
 
 #include "projection/outline.h"
 #include "projection/packed_place.h"
+#include "projection/split_linear.h"
 #include "projection/thickness.h"
 
 #include <cstring>
+#include <glm/geometric.hpp>
 
 namespace visorder {
 
@@ -12,48 +14,42 @@ namespace {
 
 // What the vertex shader reads: see projector_shaders.cpp.
 struct PlaneRecord {
-    glm::vec2 pixel; // see PackedPlace, from the image's centre; x is negative of a quad
-    glm::vec2 beside;
-    glm::vec4 depth;      // base, slope, rise
-    glm::vec4 scalar;     // likewise
-    glm::vec4 offset;     // of four planes
-    glm::vec4 slope_x;    // likewise
-    glm::vec4 slope_y;    // likewise
-    glm::vec2 corners[3]; // of the triangle
+    glm::vec4 place;        // see PackedPlace, from the image's centre; x is negative of a quad
+    glm::vec4 tents_high;   // of t1 and t2, see SplitLinear
+    glm::vec4 tents_low;    // likewise
+    glm::vec4 tent_offsets; // likewise, high and low
+    glm::vec4 shape;        // see Thickness
+    glm::vec4 depth;        // see Thickness::Linear
+    glm::vec4 scalar;       // likewise
+    glm::vec2 corners[3];   // of the triangle
     glm::vec2 unused{0};
 };
 
-// Colour and extinction times 1 - depth / D: base, slopes, rise.
+// Colour and extinction times 1 - depth / D; see Thickness::Linear.
 struct PlaneOptics {
-    glm::vec4 base, slope_x, slope_y, rise;
+    glm::vec4 base, along1, along2, rise;
 };
 
-// Over pixels from the cell's first point.
-glm::vec4 packed(const Thickness& t, const Thickness::Linear& linear)
+glm::vec4 packed(const Thickness::Linear& linear)
 {
-    return {linear.base + linear.along1 * t.first1, linear.along1 * t.slope1 + linear.along2 * t.slope2, linear.rise};
+    return {linear.base, linear.along1, linear.along2, linear.rise};
 }
 
-// In units of the rise. Of a triangle: the face of the outer points, and the three others. Of a quad: the two faces at
-// the nearer edge, and the two at the farther one.
-void put_planes(PlaneRecord& record, const Thickness& t)
+PlaneRecord record_of(const VisibleCell& cell, const Thickness& t)
 {
-    const auto put = [&](int i, double offset, const glm::dvec2& slope) {
-        record.offset[i] = static_cast<float>(offset);
-        record.slope_x[i] = static_cast<float>(slope.x);
-        record.slope_y[i] = static_cast<float>(slope.y);
-    };
-    if (t.kind == SilhouetteClass::triangle) {
-        put(0, 0, glm::dvec2(0));
-        put(1, 1, -t.slope1);
-        put(2, 1, -t.slope2);
-        put(3, 1, -t.third.x * t.slope1 - t.third.y * t.slope2);
-    } else {
-        put(0, 0, t.slope2);
-        put(1, 0, t.opposite * t.slope2);
-        put(2, 0, -t.slope1);
-        put(3, 1 - t.third.x, -t.third.x * t.slope1);
-    }
+    const PackedPlace place = packed_place({cell.at[0].x, cell.at[0].y}, glm::ivec2(0), t.swapped);
+    const double reach = cell.longest + 2; // pixels
+    const SplitLinear t1 = split_linear(t.slope1, t.first1 - glm::dot(t.slope1, place.beside), reach);
+    const SplitLinear t2 = split_linear(t.slope2, -glm::dot(t.slope2, place.beside), reach);
+    PlaneRecord record{};
+    record.place = {t.kind == SilhouetteClass::quad ? -place.pixel.x : place.pixel.x, place.pixel.y, 0, 0};
+    record.tents_high = {t1.high, t2.high};
+    record.tents_low = {t1.low, t2.low};
+    record.tent_offsets = {t1.high_offset, t2.high_offset, t1.low_offset, t2.low_offset};
+    record.shape = t.shape();
+    record.depth = packed(t.depth);
+    record.scalar = packed(t.scalar);
+    return record;
 }
 
 PlaneOptics optics_of(const TriangleSources& from, const VisibleCell& cell, const Thickness& t)
@@ -64,10 +60,10 @@ PlaneOptics optics_of(const TriangleSources& from, const VisibleCell& cell, cons
         for (std::size_t i = 0; i < 4; ++i)
             values[i] = static_cast<double>(from.optics[cell.points[i]][channel]) *
                         (1 - cell.at[i].z * from.screen->inverse_distance());
-        const glm::vec4 linear = packed(t, t.linear(values));
+        const glm::vec4 linear = packed(t.linear(values));
         optics.base[channel] = linear.x;
-        optics.slope_x[channel] = linear.y;
-        optics.slope_y[channel] = linear.z;
+        optics.along1[channel] = linear.y;
+        optics.along2[channel] = linear.z;
         optics.rise[channel] = linear.w;
     }
     return optics;
@@ -78,9 +74,16 @@ PlaneOptics optics_of(const TriangleSources& from, const VisibleCell& cell, cons
 struct PlaneTriangles::Writer {
     const TriangleSources& from;
     RecordSink& into;
+    std::vector<CellApart>& apart;
+
+    void set_apart(CellId cell) { apart.push_back({static_cast<std::uint32_t>(into.count()), cell}); }
 
     void put_cell(const VisibleCell& cell)
     {
+        if (from.pieces != nullptr && !single_precision_is_enough(cell, from)) {
+            set_apart(cell.cell);
+            return;
+        }
         const RasterLattice& lattice = from.cells->lattice();
         const Outline outline = outline_of(cell, lattice);
         bool ready = false;
@@ -91,12 +94,7 @@ struct PlaneTriangles::Writer {
                 continue;
             if (!ready) {
                 const Thickness t = thickness_of(cell, values_of(cell, from.scalars, from.screen->inverse_distance()));
-                const PackedPlace place = packed_place({cell.at[0].x, cell.at[0].y}, glm::ivec2(0), t.swapped);
-                record.pixel = t.kind == SilhouetteClass::quad ? glm::vec2(-place.pixel.x, place.pixel.y) : place.pixel;
-                record.beside = glm::vec2(place.beside);
-                record.depth = packed(t, t.depth);
-                record.scalar = packed(t, t.scalar);
-                put_planes(record, t);
+                record = record_of(cell, t);
                 if (!from.optics.empty())
                     optics = optics_of(from, cell, t);
                 ready = true;
@@ -118,12 +116,9 @@ std::size_t PlaneTriangles::record_bytes() const
 
 void PlaneTriangles::make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const
 {
-    Writer writer{from_, into};
+    Writer writer{from_, into, apart};
     from_.cells->visit(
-        cells, [&](const VisibleCell& cell) { writer.put_cell(cell); },
-        [&](CellId cell) {
-            apart.push_back({static_cast<std::uint32_t>(into.count()), cell});
-        });
+        cells, [&](const VisibleCell& cell) { writer.put_cell(cell); }, [&](CellId cell) { writer.set_apart(cell); });
 }
 
 } // namespace visorder

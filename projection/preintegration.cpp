@@ -21,7 +21,7 @@ struct Part {
 template <class Visit>
 void visit_parts(const OpticalPieces& function, double front, double back, Visit&& visit)
 {
-    const OpticalPieces::Piece* piece = &function.at(static_cast<float>(front));
+    const OpticalPieces::Piece* piece = &function.at(front);
     const double rise = back - front;
     double done = 0;
     for (;;) {
@@ -41,29 +41,37 @@ void visit_parts(const OpticalPieces& function, double front, double back, Visit
     }
 }
 
+// Below this transmittance nothing behind counts.
+constexpr double opaque = 1e-12;
+
 // By parts, the integral of e c exp(-t) is c0 (1 - E) + (c1 - c0) (M - E), where E is exp(-t) at the end and M its
-// mean, by Gauss's rule with four points over stretches of an optical depth of about 1.
+// mean, by Gauss's rule with four points over stretches of an optical depth of 1 at most: the farther end of each is
+// where t, which is quadratic, has risen by so much. What is beyond some thirty of them is not seen.
 void pass(glm::dvec3& light, double& transmittance, double length, const Part& part)
 {
     constexpr std::array<double, 4> places{0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                            0.93056815579702629};
     constexpr std::array<double, 4> weights{0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
                                             0.17392742256872693};
-    constexpr double most_stretches = 256;
-    const double depth = 0.5 * (part.first_extinction + part.last_extinction) * length;
-    const double stretches = std::clamp(std::ceil(depth), 1.0, most_stretches);
-    const double rise = (part.last_extinction - part.first_extinction) / stretches;
-    const glm::dvec3 change = (part.last_colour - part.first_colour) / stretches;
-    const double stretch = length / stretches;
-    for (double i = 0; i < stretches; ++i) {
-        const double a = -stretch * (part.first_extinction + i * rise);
-        const double b = -0.5 * stretch * rise;
-        const double end = std::exp(a + b);
+    const double rise = (part.last_extinction - part.first_extinction) * length;
+    const glm::dvec3 change = part.last_colour - part.first_colour;
+    bool last = false;
+    for (double done = 0; !last && transmittance > opaque;) {
+        const double density = std::max(part.first_extinction * length + done * rise, 0.0);
+        double way = 1 - done;
+        last = way * (density + 0.5 * rise * way) <= 1;
+        if (!last)
+            way = std::min(way, 2 / (density + std::sqrt(std::max(density * density + 2 * rise, 0.0))));
+        const double a = -way * density;
+        const double b = -0.5 * way * way * rise;
+        const double opacity = -std::expm1(a + b);
         double mean = 0;
         for (std::size_t k = 0; k < places.size(); ++k)
             mean += weights[k] * std::exp(places[k] * (a + b * places[k]));
-        light += transmittance * ((part.first_colour + i * change) * (1 - end) + change * (mean - end));
-        transmittance *= end;
+        light +=
+            transmittance * ((part.first_colour + done * change) * opacity + way * change * (mean - (1 - opacity)));
+        transmittance *= 1 - opacity;
+        done += way;
     }
 }
 

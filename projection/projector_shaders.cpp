@@ -25,7 +25,7 @@ std::string header(Integrator integrator, bool software)
 
 constexpr const char* planes_vertex_text = R"(
 struct Triangle {
-    vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
+    vec4 place, tents_high, tents_low, tent_offsets, shape, depth, scalar;
     vec2 corners[4];
 #ifdef OPTICS
     vec4 optics[4];
@@ -34,7 +34,7 @@ struct Triangle {
 layout(std430, binding = 1) readonly buffer Triangles { Triangle triangles[]; };
 uniform float half_range;
 
-flat out vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
+flat out vec4 place, tents_high, tents_low, tent_offsets, shape, depth, scalar;
 #ifdef OPTICS
 flat out vec4 optics[4];
 #endif
@@ -43,11 +43,12 @@ void main()
 {
     int triangle = gl_VertexID / 3;
     place = triangles[triangle].place;
+    tents_high = triangles[triangle].tents_high;
+    tents_low = triangles[triangle].tents_low;
+    tent_offsets = triangles[triangle].tent_offsets;
+    shape = triangles[triangle].shape;
     depth = triangles[triangle].depth;
     scalar = triangles[triangle].scalar;
-    offsets = triangles[triangle].offsets;
-    slopes_x = triangles[triangle].slopes_x;
-    slopes_y = triangles[triangle].slopes_y;
 #ifdef OPTICS
     for (int i = 0; i < 4; ++i)
         optics[i] = triangles[triangle].optics[i];
@@ -125,9 +126,11 @@ float length_per_depth(vec2 pixel)
 }
 )";
 
-// See PlaneTriangles.
+// See PlaneTriangles and SplitLinear. In units of the way where the cell is thickest, faces are passed at
+//     0,  1 - t1,  1 - t2,  1 - t3     of a triangle: the face of the outer points, and the three others;
+//     t2,  opposite t2,  1 - t1,  1 - t3     of a quad: the faces at the nearer edge, and those at the farther one.
 constexpr const char* planes_text = R"(
-flat in vec4 place, depth, scalar, offsets, slopes_x, slopes_y;
+flat in vec4 place, tents_high, tents_low, tent_offsets, shape, depth, scalar;
 #ifdef OPTICS
 flat in vec4 optics[4];
 #endif
@@ -135,14 +138,18 @@ flat in vec4 optics[4];
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    vec2 r = pixel + PLACE_OFFSET - abs(place.xy) - place.zw;
+    vec2 p = pixel + PLACE_OFFSET - abs(place.xy);
+    precise float high1 = tents_high.x * p.x + tents_high.y * p.y + tent_offsets.x;
+    precise float high2 = tents_high.z * p.x + tents_high.w * p.y + tent_offsets.y;
+    precise float t1 = high1 + (tents_low.x * p.x + tents_low.y * p.y + tent_offsets.z);
+    precise float t2 = high2 + (tents_low.z * p.x + tents_low.w * p.y + tent_offsets.w);
     bool quad = place.x < 0.0;
-    vec4 planes = offsets + slopes_x * r.x + slopes_y * r.y;
-    float first = quad ? max(planes.x, planes.y) : planes.x;
-    float last = min(min(planes.z, planes.w), quad ? planes.z : planes.y);
+    float t3 = shape.x * t1 + shape.y * t2;
+    float first = quad ? max(t2, shape.z * t2) : 0.0;
+    float last = min(min(1.0 - t1, 1.0 - t3), quad ? 1.0 - t1 : 1.0 - t2);
     if (last <= first)
         discard;
-    vec2 base = vec2(dot(depth.yz, r) + depth.x, dot(scalar.yz, r) + scalar.x);
+    vec2 base = vec2(depth.x + depth.y * t1 + depth.z * t2, scalar.x + scalar.y * t1 + scalar.z * t2);
     vec2 rise = vec2(depth.w, scalar.w);
     vec2 one = base + rise * first;
     vec2 other = base + rise * last;
@@ -154,7 +161,7 @@ void main()
     float other_scalar = other.y * other_scale;
     bool swapped = place.y < 0.0;
 #ifdef OPTICS
-    vec4 base_optics = optics[0] + optics[1] * r.x + optics[2] * r.y;
+    vec4 base_optics = optics[0] + optics[1] * t1 + optics[2] * t2;
     vec4 one_optics = (base_optics + optics[3] * first) * one_scale;
     vec4 other_optics = (base_optics + optics[3] * last) * other_scale;
 #else
@@ -250,7 +257,7 @@ void main()
 constexpr const char* near_cell_text = R"(
 uniform dvec3 places[4];
 uniform dvec2 values[4];
-uniform vec2 scalar_range;
+uniform dvec2 scalar_range;
 uniform double first_depth, inverse_depth;
 
 dvec3 from_ray[4];
@@ -334,14 +341,16 @@ void main()
     double way = (first - enter.x) / (leave.x - enter.x);
     double first_scale = 1.0 / (1.0 - first * inverse_depth);
     double last_scale = 1.0 / (1.0 - leave.x * inverse_depth);
-    float front = clamp(float((enter.y + way * (leave.y - enter.y)) * first_scale), scalar_range.x, scalar_range.y);
-    float back = clamp(float(leave.y * last_scale), scalar_range.x, scalar_range.y);
-    float len = float((leave.x - first) * first_scale * last_scale) * length_per_depth(pixel);
+    double front = clamp((enter.y + way * (leave.y - enter.y)) * first_scale, scalar_range.x, scalar_range.y);
+    double back = clamp(leave.y * last_scale, scalar_range.x, scalar_range.y);
+    double len = (leave.x - first) * first_scale * last_scale * double(length_per_depth(pixel));
 #ifdef OPTICS
     // Where a ray begins inside the cell there is no vertex whose colour could be taken.
-    put(light_of(front, back, len, optics_at(front), optics_at(back)));
+    put(light_of(float(front), float(back), float(len), optics_at(float(front)), optics_at(float(back))));
+#elif defined(EXACT)
+    put(light_in_doubles(front, back, len));
 #else
-    put(light_of(front, back, len, vec4(0.0), vec4(0.0)));
+    put(light_of(float(front), float(back), float(len), vec4(0.0), vec4(0.0)));
 #endif
 }
 )";
@@ -373,9 +382,11 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
 ShaderPair near_cell_shaders(Integrator integrator, bool software)
 {
     const std::string optics = needs_optics(integrator) ? optics_shader() : "";
-    const std::string start = header(integrator, software);
-    return {start + near_cell_vertex_text,
-            start + result_text + near_ray_text + optics + integrator_shader(integrator) + near_cell_text};
+    const bool exact = integrator == Integrator::exact;
+    const std::string start = header(integrator, software) + (exact ? "#define EXACT\n" : "");
+    return {start + near_cell_vertex_text, start + result_text + near_ray_text + optics +
+                                               (exact ? exact_shader_in_doubles() : integrator_shader(integrator)) +
+                                               near_cell_text};
 }
 
 } // namespace visorder

@@ -95,15 +95,10 @@ Program make_program(const Context& context, const char* title, const ShaderPair
     return {context, title, {{GL_VERTEX_SHADER, shaders.vertex}, {GL_FRAGMENT_SHADER, shaders.fragment}}};
 }
 
-struct ScalarRange {
-    double lowest;
-    double range;
-};
-
-ScalarRange scalar_range(const Mesh& mesh)
+ScaledScalars scaled_scalars(const Mesh& mesh)
 {
     const auto [lowest, highest] = scalar_interval(mesh).value();
-    return {lowest, highest > lowest ? highest - lowest : 1};
+    return {mesh.scalars, lowest, highest > lowest ? highest - lowest : 1};
 }
 
 // Random lines cross a convex body along four times its volume over its surface in the mean (Cauchy).
@@ -198,11 +193,7 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
       rest_ring_(make_ring(context, rest_segment_bytes))
 {
     const Context::Current current(context);
-    const Mesh& mesh = scene.mesh();
-    const ScalarRange range = scalar_range(mesh);
-    scalars_.resize(mesh.scalars.size());
-    std::transform(mesh.scalars.begin(), mesh.scalars.end(), scalars_.begin(),
-                   [&](float s) { return static_cast<float>((static_cast<double>(s) - range.lowest) / range.range); });
+    scalars_ = scaled_scalars(scene.mesh());
 
     const Orientations& orientations = scene.orientations();
     turned_.resize(scene.cell_count());
@@ -225,8 +216,7 @@ ProjectionRenderer::~ProjectionRenderer() = default;
 void ProjectionRenderer::set_transfer_function(const TransferFunction& function)
 {
     const Context::Current current(*context_);
-    const ScalarRange range = scalar_range(scene_->mesh());
-    pieces_ = optical_pieces(function, range.lowest, range.range);
+    pieces_ = optical_pieces(function, scalars_.lowest, scalars_.range);
     function_.set(pieces_);
     if (!needs_optics(options_.integrator))
         return;
@@ -347,7 +337,7 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
     std::sort(order.begin(), order.end());
     std::array<glm::dvec3, 4> in_space{};
     std::array<glm::dvec3, 4> on_screen{};
-    std::array<float, 4> scalars{};
+    std::array<double, 4> scalars{};
     bool placed = true;
     for (std::size_t i = 0; i < 4; ++i) {
         in_space[i] = points[order[i]];
@@ -363,7 +353,7 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
     near_cell_program_.set("values", near->values);
     near_cell_program_.set("first_depth", near->first_depth);
     near_cell_program_.set("inverse_depth", near->inverse_distance);
-    near_cell_program_.set("scalar_range", near->scalar_range);
+    near_cell_program_.set("scalar_range", std::span<const glm::dvec2>(&near->scalar_range, 1));
     near_cell_program_.set("low", glm::vec2(near->low));
     near_cell_program_.set("high", glm::vec2(near->high));
     near_cell_program_.use();
@@ -397,8 +387,7 @@ void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
     near_cell_program_.set("half_range", static_cast<float>(lattice_.half_range));
     near_cell_program_.set("centre", glm::vec2(screen.centre()));
     set_rays(near_cell_program_, screen);
-    function_.introduce(near_cell_program_,
-                        options_.integrator == Integrator::exact || needs_optics(options_.integrator));
+    function_.introduce(near_cell_program_, needs_optics(options_.integrator));
     set_up_triangles(triangle_program, screen);
     function_.introduce(triangle_program, looks_up_pieces(options_));
     function_.bind();
@@ -460,9 +449,7 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     points_.place(screen, lattice_, scene_->mesh().points);
     statistics_.place_s = watch.lap();
 
-    const VisibleCells visible(*scene_, turned_, points_, screen, lattice_,
-                               options_.projector == Projector::planes ? FragmentPrecision::single
-                                                                       : FragmentPrecision::composite);
+    const VisibleCells visible(*scene_, turned_, points_, screen, lattice_);
     const bool linear = options_.integrator == Integrator::linear;
     const bool exact = options_.integrator == Integrator::exact;
     const TriangleSources sources{&screen, &visible, scalars_, optics_, linear, exact ? &pieces_ : nullptr};

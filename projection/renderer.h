@@ -6,6 +6,7 @@
 #include "projection/function_textures.h"
 #include "projection/optical_pieces.h"
 #include "projection/projector.h"
+#include "projection/scaled_scalars.h"
 #include "projection/screen.h"
 #include "projection/screen_points.h"
 #include "projection/transfer_function.h"
@@ -50,7 +51,7 @@ struct RenderStatistics {
 /// Rays begin at the eye, or, in a parallel view, infinitely far before the scene; near and far plane are ignored. The
 /// scalar is linear in each cell. Positions are computed once a point, in doubles, and each fragment finds out from
 /// them where its ray enters and leaves its cell: no cell is missed and none is hit twice. Memory beyond the scene is
-/// about 37 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
+/// about 33 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
 ///
 /// Holds references to context and scene, which must outlive it. One `draw` at a time, on the context's thread.
 class ProjectionRenderer {
@@ -98,7 +99,7 @@ private:
     RenderOptions options_;
     bool software_;
     RasterLattice lattice_;
-    std::vector<float> scalars_;                              // 0 to 1 over the scene
+    ScaledScalars scalars_;
     std::vector<std::uint8_t> turned_;                        // of each cell
     std::vector<glm::vec4> optics_;                           // of each point, where the integrator interpolates them
     LargeArray<CellId> inner_cells_;                          // of each of the caller's cells

@@ -99,6 +99,16 @@ ScreenPoint Screen::seen(const glm::dvec3& point) const
     return {glm::dot(x_, from) / d, glm::dot(y_, from) / d, distance_ * z / d, d * inverse_distance_};
 }
 
+double Screen::longest_ray() const
+{
+    const glm::dvec2 low = -glm::dvec2(centre_);
+    const glm::dvec2 high = low + glm::dvec2(size_);
+    double longest = 0;
+    for (const glm::dvec2 corner : {low, high, glm::dvec2(low.x, high.y), glm::dvec2(high.x, low.y)})
+        longest = std::max(longest, glm::length(rays_ * glm::dvec3(corner, 1)));
+    return longest;
+}
+
 Screen::Anywhere Screen::anywhere(const glm::dvec3& point) const
 {
     const glm::dvec3 from = point - reference_;

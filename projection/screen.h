@@ -56,6 +56,9 @@ public:
     /// ray[0] x + ray[1] y + ray[2]. In world coordinates, the columns for x, y and 1.
     const glm::dmat3& rays() const { return rays_; }
 
+    /// That length where it is most in the image.
+    double longest_ray() const;
+
     /// Whether the view shows the world as a mirror does.
     bool mirrors() const { return mirrors_; }
 

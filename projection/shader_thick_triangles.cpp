@@ -31,7 +31,12 @@ std::size_t ShaderThickTriangles::record_bytes() const
 
 void ShaderThickTriangles::make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const
 {
+    const auto set_apart = [&](CellId cell) { apart.push_back({static_cast<std::uint32_t>(into.count()), cell}); };
     const auto put = [&](const VisibleCell& cell) {
+        if (from_.pieces != nullptr && !single_precision_is_enough(cell, from_)) {
+            set_apart(cell.cell);
+            return;
+        }
         const CellValues values = values_of(cell, from_.scalars, from_.screen->inverse_distance());
         ThickRecord record{};
         for (std::size_t i = 0; i < 4; ++i)
@@ -48,9 +53,7 @@ void ShaderThickTriangles::make(std::span<const CellId> cells, RecordSink& into,
             optics[i] = from_.optics[cell.points[i]];
         std::memcpy(next + sizeof record, &optics, sizeof optics);
     };
-    from_.cells->visit(cells, put, [&](CellId cell) {
-        apart.push_back({static_cast<std::uint32_t>(into.count()), cell});
-    });
+    from_.cells->visit(cells, put, set_apart);
 }
 
 } // namespace visorder

@@ -14,22 +14,12 @@
 namespace visorder {
 
 namespace {
-
-double longest_ray(const Screen& screen)
-{
-    const glm::dvec2 low = -glm::dvec2(screen.centre());
-    const glm::dvec2 high = low + glm::dvec2(screen.size());
-    double longest = 0;
-    for (const glm::dvec2 corner : {low, high, glm::dvec2(low.x, high.y), glm::dvec2(high.x, low.y)})
-        longest = std::max(longest, glm::length(screen.rays() * glm::dvec3(corner, 1)));
-    return longest;
-}
-
 } // namespace
 
 struct SilhouetteTriangles::Writer {
     const SilhouetteTriangles& triangles;
     RecordSink& into;
+    std::vector<CellApart>& apart;
     std::vector<OpticalPass> passes{};
 
     // Of more, it is not found out whether the cell covers one.
@@ -93,12 +83,13 @@ struct SilhouetteTriangles::Writer {
     CellWays ways_of(const VisibleCell& cell, const Thickness& t) const
     {
         const double inverse = triangles.inverse_distance_;
-        const std::span<const float> scalars = triangles.from_.scalars;
+        const ScaledScalars& scalars = triangles.from_.scalars;
         CellWays ways{};
         ways.reference = ways.lowest = ways.highest = scalars[cell.points[0]];
         for (std::size_t i = 0; i < 4; ++i) {
-            ways.lowest = std::min(ways.lowest, scalars[cell.points[i]]);
-            ways.highest = std::max(ways.highest, scalars[cell.points[i]]);
+            const double scalar = scalars[cell.points[i]];
+            ways.lowest = std::min(ways.lowest, scalar);
+            ways.highest = std::max(ways.highest, scalar);
         }
         const double least_scale = 1 - cell.farthest * inverse;
         ways.longest = std::abs(t.depth.rise) * triangles.longest_ray_ / (least_scale * least_scale);
@@ -132,11 +123,11 @@ struct SilhouetteTriangles::Writer {
     // Makes scalars relative to the first point's, so that they keep their digits.
     void make_relative(const VisibleCell& cell, CellValues& values) const
     {
-        const std::span<const float> scalars = triangles.from_.scalars;
+        const ScaledScalars& scalars = triangles.from_.scalars;
         const double reference = scalars[cell.points[0]];
         for (std::size_t i = 0; i < 4; ++i)
-            values.scalar[i] = (static_cast<double>(scalars[cell.points[i]]) - reference) *
-                               (1 - values.depth[i] * triangles.inverse_distance_);
+            values.scalar[i] =
+                (scalars[cell.points[i]] - reference) * (1 - values.depth[i] * triangles.inverse_distance_);
     }
 
     // Whether the cell, if it is small, covers the centre of a pixel.
@@ -154,6 +145,8 @@ struct SilhouetteTriangles::Writer {
                     return true;
         return false;
     }
+
+    void set_apart(CellId cell) { apart.push_back({static_cast<std::uint32_t>(into.count()), cell}); }
 
     void put_cell(const VisibleCell& cell)
     {
@@ -177,7 +170,10 @@ struct SilhouetteTriangles::Writer {
         const std::span<const Outline::Triangle> drawn = std::span(seen).first(seen_count);
         Common common = common_of(cell, t);
         if (from.pieces != nullptr) {
-            find_optical_passes(*from.pieces, ways_of(cell, t), passes);
+            if (!find_optical_passes(*from.pieces, ways_of(cell, t), passes)) {
+                set_apart(cell.cell);
+                return;
+            }
             const std::size_t size = common.size;
             for (const OpticalPass& pass : passes) {
                 common.size = size;
@@ -229,18 +225,15 @@ SilhouetteTriangles::SilhouetteTriangles(const TriangleSources& sources, Integra
       linear_(integrator == Integrator::linear),
       perspective_(sources.screen->perspective()),
       inverse_distance_(sources.screen->inverse_distance()),
-      longest_ray_(longest_ray(*sources.screen))
+      longest_ray_(sources.screen->longest_ray())
 {
 }
 
 void SilhouetteTriangles::make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const
 {
-    Writer writer{*this, into};
+    Writer writer{*this, into, apart};
     from_.cells->visit(
-        cells, [&](const VisibleCell& cell) { writer.put_cell(cell); },
-        [&](CellId cell) {
-            apart.push_back({static_cast<std::uint32_t>(into.count()), cell});
-        });
+        cells, [&](const VisibleCell& cell) { writer.put_cell(cell); }, [&](CellId cell) { writer.set_apart(cell); });
 }
 
 } // namespace visorder

@@ -93,12 +93,12 @@ void measure_quad(Thickness& t, const VisibleCell& cell)
 
 } // namespace
 
-CellValues values_of(const VisibleCell& cell, std::span<const float> scalars, double inverse_distance)
+CellValues values_of(const VisibleCell& cell, const ScaledScalars& scalars, double inverse_distance)
 {
     CellValues values{};
     for (std::size_t i = 0; i < 4; ++i) {
         values.depth[i] = cell.at[i].z;
-        values.scalar[i] = static_cast<double>(scalars[cell.points[i]]) * (1 - values.depth[i] * inverse_distance);
+        values.scalar[i] = scalars[cell.points[i]] * (1 - values.depth[i] * inverse_distance);
     }
     return values;
 }

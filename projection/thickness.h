@@ -1,5 +1,6 @@
 #pragma once
 
+#include "projection/scaled_scalars.h"
 #include "projection/triangle_sources.h"
 #include "projection/visible_cells.h"
 
@@ -26,7 +27,7 @@ struct CellValues {
     std::array<double, 4> depth;
     std::array<double, 4> scalar;
 };
-CellValues values_of(const VisibleCell& cell, std::span<const float> scalars, double inverse_distance);
+CellValues values_of(const VisibleCell& cell, const ScaledScalars& scalars, double inverse_distance);
 
 ThickPoint thick_point(const VisibleCell& cell, const CellValues& values);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "projection/optical_pieces.h"
+#include "projection/scaled_scalars.h"
 #include "projection/screen.h"
 #include "projection/visible_cells.h"
 
@@ -13,10 +14,14 @@ namespace visorder {
 struct TriangleSources {
     const Screen* screen;
     const VisibleCells* cells;
-    std::span<const float> scalars;
+    ScaledScalars scalars;
     std::span<const glm::vec4> optics; ///< colour and extinction at each point; only where vertices are interpolated
     bool opacity_at_thickest = false;  ///< whether the fourth component interpolated is opacity, not extinction
-    const OpticalPieces* pieces;       ///< where triangles are cut into OpticalPasses, else null
+    const OpticalPieces* pieces;       ///< where they are integrated exactly, else null
 };
+
+/// Whether a cell's ways, as far as they can be told from `pieces`, may be integrated exactly by fragments that look up
+/// scalars in single precision: see looked_up_in_single_precision.
+bool single_precision_is_enough(const VisibleCell& cell, const TriangleSources& from);
 
 } // namespace visorder

@@ -14,6 +14,8 @@ namespace {
 
 // Of the length of a ray's way through a cell, as a part of the scene's diameter.
 constexpr double tolerance = 1e-5;
+// Likewise, as a part of the way where the cell is thickest.
+constexpr double thickness_tolerance = 2e-6;
 // Of the distances before the eye of a cell's points: projective depths are interpolated between them.
 constexpr double most_foreshortened = 64;
 
@@ -25,11 +27,8 @@ constexpr double most_longest = 3072;
 constexpr double least_width = 1e-12;
 
 // Times the width of a face.
-double error_of(FragmentPrecision precision, double longest)
+double error_of(double longest)
 {
-    // What single precision makes of k.r: three roundings, each of 2^-24 at most.
-    if (precision == FragmentPrecision::single)
-        return 3 * 0x1p-24 * (longest + 1);
     const double reach = longest + 2;
     return 8 * 0x1p-47 * reach * reach;
 }
@@ -49,7 +48,7 @@ double height(double area, const glm::dvec2& a, const glm::dvec2& b)
 } // namespace
 
 VisibleCells::VisibleCells(const Scene& scene, std::span<const std::uint8_t> turned, const ScreenPoints& points,
-                           const Screen& screen, const RasterLattice& lattice, FragmentPrecision precision)
+                           const Screen& screen, const RasterLattice& lattice)
     : vertices_(scene.mesh().vertices),
       turned_(turned),
       points_(points),
@@ -60,14 +59,9 @@ VisibleCells::VisibleCells(const Scene& scene, std::span<const std::uint8_t> tur
       shift_(std::countr_zero(static_cast<unsigned>(lattice.steps))),
       inverse_distance_(screen.inverse_distance()),
       length_scale_(0),
-      precision_(precision),
       mirrored_(screen.mirrors())
 {
-    double longest = 0; // of the rays through the image's corners
-    for (const double x : {first_.x, last_.x + 1})
-        for (const double y : {first_.y, last_.y + 1})
-            longest = std::max(longest, glm::length(screen.rays() * glm::dvec3(x, y, 1)));
-    length_scale_ = longest / (tolerance * scene.diameter());
+    length_scale_ = screen.longest_ray() / (tolerance * scene.diameter());
 }
 
 VisibleCells::Pixels VisibleCells::pixels_in(const glm::ivec2& low, const glm::ivec2& high) const
@@ -119,14 +113,16 @@ VisibleCells::Precision VisibleCells::precision_for(VisibleCell& cell) const
         farthest = std::max(farthest, p.z);
     }
     cell.longest = longest;
+    cell.nearest = nearest;
     cell.farthest = farthest;
     const double near_scale = 1 - nearest * inverse_distance_;
     const double far_scale = 1 - farthest * inverse_distance_;
     if (near_scale > most_foreshortened * far_scale || longest > most_longest)
         return {std::numeric_limits<double>::infinity(), 0, longest};
     constexpr double diagonal = 1.4143;
-    const double error = error_of(precision_, longest);
-    return {error * length_scale_ * (farthest - nearest) / (far_scale * far_scale), 2 * error, diagonal * longest};
+    const double error = error_of(longest);
+    const double of_diameter = length_scale_ * (farthest - nearest) / (far_scale * far_scale);
+    return {error * std::max(of_diameter, 1 / thickness_tolerance), 2 * error, diagonal * longest};
 }
 
 VisibleCells::Sight VisibleCells::judge(VisibleCell& cell) const

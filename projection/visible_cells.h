@@ -23,7 +23,7 @@ struct VisibleCell {
     std::array<glm::dvec3, 4> at; ///< where they are: see ScreenPoints
     glm::ivec2 low, high;         ///< a box around them, in lattice steps
     double longest;               ///< pixels along either axis from the first to another one
-    double farthest;              ///< depth
+    double nearest, farthest;     ///< depths
     std::array<double, 4> areas;  ///< see Silhouette, whose areas these are, in pixels
     bool counterclockwise;        ///< likewise
     bool inner_behind;            ///< of a triangle: whether the inner point is behind the other three
@@ -32,25 +32,20 @@ struct VisibleCell {
     double least_width;
 };
 
-/// How well fragments know where on the way along a cell's thickness they are. The error, times the width of a face
-/// that is seen almost edge-on, of a cell that is l pixels long:
-enum class FragmentPrecision {
-    single,   ///< l / 2^22, of numbers in single precision
-    composite ///< 8 l^2 / 2^47, of sums of two; see SplitLinear
-};
-
 /// Finds out which cells are seen, and how they lie. What covers no pixel's centre is left out: most, of a large mesh.
 ///
 /// Where a face is seen almost edge-on, the length of a ray's way through the cell is known only if the face is not all
-/// too narrow; see FragmentPrecision. Where a pixel's centre lies in a face so narrow that the error would be more than
-/// a few millionths of the scene's diameter, the cell is set apart.
+/// too narrow: fragments know where on the way along a cell's thickness they are up to an error, times the width of a
+/// face that is seen almost edge-on, of 8 l^2 / 2^47 in a cell that is l pixels long (see SplitLinear). Where a pixel's
+/// centre lies in a face so narrow that this would be more than a few millionths of the scene's diameter, or two
+/// millionths of the cell's thickness, the cell is set apart.
 ///
 /// Holds references to what it is made from. Threads may share one.
 class VisibleCells {
 public:
     /// `turned`: of each cell, whether its vertices stand in the reverse of VTK's order (1) or not (0).
     VisibleCells(const Scene& scene, std::span<const std::uint8_t> turned, const ScreenPoints& points,
-                 const Screen& screen, const RasterLattice& lattice, FragmentPrecision precision);
+                 const Screen& screen, const RasterLattice& lattice);
 
     /// The pixels of the image with their centres in a box, both ends of which count: first and last, from the image's
     /// centre. Corners in lattice steps. None if the first is beyond the last.
@@ -94,7 +89,6 @@ private:
     int shift_;               // a pixel is 2^shift_ lattice steps
     double inverse_distance_;
     double length_scale_; // of a difference of depths: how far, in tolerances, rays go
-    FragmentPrecision precision_;
     bool mirrored_;
 };
 

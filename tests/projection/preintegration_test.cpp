@@ -39,6 +39,22 @@ TEST(Preintegration, IsTheIntegral)
             }
 }
 
+TEST(Preintegration, IsRightWhereAPartOfTheWayIsDense)
+{
+    // A flank, rising from nothing over a hundredth of the way, behind which nothing is seen.
+    for (const double extinction : {1e2, 1e5, 1e9}) {
+        const OpticalPieces pieces =
+            optical_pieces(TransferFunction({{0.5, 0, {1, 0, 0}}, {0.51, extinction, {0, 1, 0}}}), 0, 1);
+        const glm::dvec4 light = light_along(pieces, 0, 1, 1);
+        // Of colour 1 - x, at optical depth k x^2 / 2 in parts of the flank, the mean is that of exp(-t) over the way.
+        const double k = extinction * 0.01;
+        const double root = std::sqrt(k / 2);
+        const double mean = std::sqrt(3.14159265358979323846) / (2 * root) * std::erf(root);
+        EXPECT_NEAR(light.x, 1 - mean, 1e-6) << extinction;
+        EXPECT_NEAR(light.w, 1, 1e-9) << extinction;
+    }
+}
+
 TEST(Preintegration, TablesHoldTheIntegralAtTheirEntries)
 {
     const OpticalPieces pieces = optical_pieces(with_jumps, -1, 3);
@@ -69,13 +85,14 @@ TEST(OpticalPieces, AreTheTransferFunction)
 {
     const OpticalPieces pieces = optical_pieces(with_jumps, 0, 1);
     for (int i = -20; i < 120; ++i) {
-        const float s = static_cast<float>(i) / 100 + 0.0003F;
+        const double s = i / 100.0 + 0.0003;
         const auto& piece = pieces.at(s);
         EXPECT_LE(piece.begin, s);
         EXPECT_LT(s, piece.end);
-        const OpticalPoint wanted = with_jumps.at(static_cast<double>(s));
-        EXPECT_NEAR(piece.extinction + (s - piece.begin) * piece.extinction_slope, wanted.extinction, 1e-4);
-        EXPECT_NEAR(piece.colour.x + (s - piece.begin) * piece.colour_slope.x, wanted.colour.x, 1e-4);
+        const OpticalPoint wanted = with_jumps.at(s);
+        EXPECT_NEAR(piece.extinction + (s - piece.begin) * piece.extinction_slope, wanted.extinction, 1e-12);
+        EXPECT_NEAR(static_cast<double>(piece.colour.x) + (s - piece.begin) * static_cast<double>(piece.colour_slope.x),
+                    wanted.colour.x, 1e-6);
     }
 }
 

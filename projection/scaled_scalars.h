@@ -1,0 +1,18 @@
+#pragma once
+
+#include "scene/mesh.h"
+
+#include <span>
+
+namespace visorder {
+
+/// The scalars of a mesh's points, shifted and scaled in double precision: 0 to 1 over the scene.
+struct ScaledScalars {
+    std::span<const float> given;
+    double lowest = 0;
+    double range = 1; ///< above 0
+
+    double operator[](PointId point) const { return (static_cast<double>(given[point]) - lowest) / range; }
+};
+
+} // namespace visorder
