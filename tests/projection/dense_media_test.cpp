@@ -16,7 +16,9 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::tests {
+
+using namespace scenes;
 namespace {
 
 struct NamedScene {
@@ -118,4 +120,4 @@ TEST(DenseMedia, ExactIntegrationIsTheRayCasters)
 }
 
 } // namespace
-} // namespace visorder
+} // namespace visorder::tests
