@@ -1,6 +1,7 @@
 #include "apps/scene_source.h"
 
 #include "bench/generated_scene.h"
+#include "files/crowded_faces.h"
 #include "files/read_mesh.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
@@ -22,7 +23,7 @@ std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
     return source;
 }
 
-SourcedMesh load(const SceneSource& source)
+SourcedMesh load(const SceneSource& source, bool list_arrays)
 {
     if (source.file.empty() && source.generated.empty())
         throw InputError("no mesh given: name a file, or a generated scene by --scene");
@@ -35,7 +36,12 @@ SourcedMesh load(const SceneSource& source)
         file.mesh = generate(source.generated);
     } else {
         result.name = source.file;
-        file = read_mesh(source.file, {source.scalar, source.weld.given, source.weld.tolerance});
+        ReadOptions options;
+        options.scalar = source.scalar;
+        options.list_arrays = list_arrays;
+        options.weld = source.weld.given;
+        options.weld_tolerance = source.weld.tolerance;
+        file = read_mesh(source.file, options);
     }
     result.source_cells = file.mesh.cell_count();
     if (source.whole) {
@@ -47,8 +53,16 @@ SourcedMesh load(const SceneSource& source)
         result.mesh = std::move(subdivision.mesh);
     }
     result.scalar = std::move(file.scalar);
+    result.scalar_map = file.scalar_map;
+    result.arrays = std::move(file.arrays);
     result.notes = std::move(file.notes);
     return result;
+}
+
+void tell_faults(std::FILE* out, const SourcedMesh& sourced, const Scene& scene)
+{
+    if (const std::string note = crowded_faces_note(scene, sourced.cells); !note.empty())
+        fmt::print(out, "{}: {}\n", sourced.name, note);
 }
 
 int with_names_of(const SourcedMesh& sourced, const std::function<int()>& body)

@@ -17,7 +17,7 @@ constexpr std::uint64_t layout =
 template <class Archive>
 void transfer(Archive& archive, ReadOptions& options)
 {
-    archive(options.scalar, options.weld, options.weld_tolerance, options.time, options.isolated);
+    archive(options.scalar, options.list_arrays, options.weld, options.weld_tolerance, options.time, options.isolated);
 }
 
 template <class Archive>
@@ -33,6 +33,19 @@ void transfer(Archive& archive, MeshBlock& block)
 }
 
 template <class Archive>
+void transfer(Archive& archive, ScalarMap& map)
+{
+    archive(map.offset, map.scale);
+}
+
+template <class Archive>
+void transfer(Archive& archive, ArraySummary& array)
+{
+    archive(array.name, array.type, array.on_cells, array.components, array.holds_ids, array.finite, array.missing,
+            array.lowest, array.highest);
+}
+
+template <class Archive>
 void transfer(Archive& archive, Mesh& mesh)
 {
     archive(mesh.points, mesh.shapes, mesh.offsets, mesh.vertices, mesh.scalars);
@@ -41,7 +54,7 @@ void transfer(Archive& archive, Mesh& mesh)
 template <class Archive>
 void transfer(Archive& archive, MeshFile& file)
 {
-    archive(file.mesh, file.scalar, file.notes, file.file_cells, file.blocks);
+    archive(file.mesh, file.scalar, file.notes, file.file_cells, file.blocks, file.scalar_map, file.arrays);
 }
 
 template <class T>

@@ -24,7 +24,7 @@ constexpr std::array ignored{"vt",    "vn",       "vp",       "o",          "g",
 
 // Curves and surfaces that are no polygons, and what describes them.
 constexpr std::array free_form{"curv", "curv2", "surf"};
-constexpr std::array free_form_details{"cstype", "deg", "bmat", "step", "parm", "trim", "hole",
+constexpr std::array free_form_details{"cstype", "deg", "bmat", "step", "parm",  "trim", "hole",
                                        "scrv",   "sp",  "end",  "con",  "ctech", "stech"};
 
 bool is_one_of(std::span<const char* const> words, std::string_view word)

@@ -95,7 +95,8 @@ TEST(Obj, LeavesOutFreeFormSurfacesWithANote)
 {
     const MeshFile file = read(square + "f 1 2 3\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nend\n");
     EXPECT_THAT(file.mesh.vertices, ElementsAre(0, 1, 2));
-    EXPECT_THAT(file.notes, ElementsAre("1 free-form curves and surfaces left out", "1 points that no cell uses left out"));
+    EXPECT_THAT(file.notes,
+                ElementsAre("1 free-form curves and surfaces left out", "1 points that no cell uses left out"));
 }
 
 TEST(Obj, NumbersCellsAsTheFileListsThem)
