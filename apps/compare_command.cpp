@@ -107,8 +107,11 @@ void add_compare_command(CLI::App& app, Command& chosen)
         ->capture_default_str()
         ->check(CLI::Range(5, 1000));
     command->add_option("--scalar", options.scalar, "The array to take of each mesh (default: the format's)");
+    command->add_option("--time", options.time, "The time step to take of each mesh (default: its last)");
     add_weld_option(*command, arguments->weld);
     command->add_flag("--whole", arguments->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
+    command->add_option("--audit", options.audit_rays,
+                        "Also hold every order against this many rays from each view, which know no relations");
     command->add_flag("--statistics", arguments->statistics, "Also what each sorter counts of its own work");
     add_sorter_options(*command, options.sorter_options);
     command

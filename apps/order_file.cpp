@@ -1,6 +1,7 @@
 #include "apps/order_file.h"
 
 #include "apps/output_file.h"
+#include "files/input_content.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 #include <iterator>
 #include <regex>
 #include <string>
@@ -67,6 +67,9 @@ std::vector<std::uint64_t> cells_of_npy(const std::filesystem::path& file, const
     std::memcpy(&length, bytes.data() + 8, std::min<std::size_t>(first_version ? 2 : 4, bytes.size() - 8));
     if (bytes.size() < prefix + length)
         bad(file, "truncated");
+    constexpr std::uint32_t longest_header = 4096; // std::regex takes stack for each character
+    if (length > longest_header)
+        bad(file, fmt::format("a header of {} bytes is not that of a list", length));
     const std::string header = bytes.substr(prefix, length);
     std::smatch match;
     if (!std::regex_search(header, match, std::regex("'descr': *'([<>|=])([iu])([1248])'")))
@@ -76,8 +79,11 @@ std::vector<std::uint64_t> cells_of_npy(const std::filesystem::path& file, const
     const auto width = static_cast<std::size_t>(match[3].str()[0] - '0');
     if (!std::regex_search(header, match, std::regex("'shape': *\\(([0-9]+), *\\)")))
         bad(file, "not an array of one dimension");
-    const std::size_t count = std::stoull(match[1]);
-    if (bytes.size() - prefix - length != count * width)
+    const std::string digits = match[1];
+    std::size_t count = 0;
+    const std::errc error = std::from_chars(digits.data(), digits.data() + digits.size(), count).ec;
+    const std::size_t data_bytes = bytes.size() - prefix - length;
+    if (error != std::errc() || count > data_bytes / width || count * width != data_bytes)
         bad(file, "its length is not that of its shape");
     std::vector<std::uint64_t> cells(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -120,12 +126,13 @@ void write_order(const std::filesystem::path& file, std::span<const std::uint64_
 
 std::vector<std::uint64_t> read_order(const std::filesystem::path& file)
 {
-    std::ifstream in(file, std::ios::binary);
-    if (!in)
-        bad(file, "cannot be opened");
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    if (in.bad())
-        bad(file, "cannot be read");
+    constexpr std::uint64_t most_bytes = std::uint64_t{8} << 30; // of text, for all cells that a mesh can have
+    std::string bytes;
+    try {
+        bytes = input_content(file, most_bytes);
+    } catch (const InputError& error) {
+        bad(file, error.what());
+    }
     return small_ending(file) == ".npy" ? cells_of_npy(file, bytes) : cells_of_text(file, bytes);
 }
 

@@ -7,6 +7,7 @@
 #include "scene/subdivision.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace visorder::apps {
 
@@ -15,10 +16,14 @@ using namespace scenes;
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
 {
     auto source = std::make_shared<SceneSource>();
-    command.add_option("mesh", source->file, "A mesh: .vtu, .vtk, .ex2, .e, .exo, ...xyz.bin, .obj");
+    command.add_option("mesh", source->file,
+                       "A mesh: " + fmt::format("{}", fmt::join(mesh_file_endings(), ", ")) +
+                           ", and most of them with .gz");
     command.add_option("--scene", source->generated, "A generated scene instead, NAME[:SIZE[:SEED]]");
     command.add_option("--scalar", source->scalar, "The array to take (default: the format's)");
     add_weld_option(command, source->weld);
+    command.add_option("--time", source->time,
+                       "The time step to take: first, last, index:N or its time (default: last)");
     command.add_flag("--whole", source->whole, "Keep zoo cells whole instead of subdividing them into tetrahedra");
     return source;
 }
@@ -36,12 +41,11 @@ SourcedMesh load(const SceneSource& source, bool list_arrays)
         file.mesh = generate(source.generated);
     } else {
         result.name = source.file;
-        ReadOptions options;
-        options.scalar = source.scalar;
-        options.list_arrays = list_arrays;
-        options.weld = source.weld.given;
-        options.weld_tolerance = source.weld.tolerance;
-        file = read_mesh(source.file, options);
+        file = read_mesh(source.file, {.scalar = source.scalar,
+                                       .weld = source.weld.given,
+                                       .weld_tolerance = source.weld.tolerance,
+                                       .time = source.time,
+                                       .list_arrays = list_arrays});
     }
     result.source_cells = file.mesh.cell_count();
     if (source.whole) {

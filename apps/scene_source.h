@@ -20,6 +20,7 @@ struct SceneSource {
     std::string generated;
     std::string scalar;
     WeldOption weld;
+    std::string time; ///< as in ReadOptions
     bool whole = false;
 };
 
@@ -35,7 +36,7 @@ struct SourcedMesh {
     std::vector<std::string> notes;
 };
 
-/// Adds MESH, --scene, --scalar, --weld and --whole.
+/// Adds MESH, --scene, --scalar, --weld, --time and --whole.
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command);
 
 /// Reads or makes the mesh. Throws InputError.

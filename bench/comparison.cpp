@@ -4,6 +4,7 @@
 #include "bench/image_file.h"
 #include "bench/views.h"
 #include "checking/order_checker.h"
+#include "checking/ray_audit.h"
 #include "files/cell_numbers.h"
 #include "files/crowded_faces.h"
 #include "files/read_mesh.h"
@@ -19,6 +20,7 @@
 #include <memory>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -49,7 +51,10 @@ std::vector<Source> sources_of(const ComparisonOptions& options)
 {
     std::vector<Source> sources;
     for (const std::filesystem::path& file : options.files) {
-        const ReadOptions read{options.scalar, options.weld, options.weld_tolerance};
+        const ReadOptions read{.scalar = options.scalar,
+                               .weld = options.weld,
+                               .weld_tolerance = options.weld_tolerance,
+                               .time = options.time};
         sources.push_back({distinct_name(options, file), "", [file, read] { return read_mesh(file, read); }});
     }
     for (const std::string& specification : options.generated)
@@ -298,6 +303,11 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
     for (std::size_t v = 0; v < views.size(); ++v) {
         progress(fmt::format("{}: view {} of {}, relations", source.name, v + 1, views.size()));
         const Relations relations = checker.relations_at(views[v].view.eye);
+        std::optional<RayAudit> audit;
+        if (options.audit_rays > 0) {
+            progress(fmt::format("{}: view {} of {}, rays", source.name, v + 1, views.size()));
+            audit.emplace(scene, views[v].view.eye, RayAuditOptions{options.audit_rays, options.seed + v});
+        }
         ViewFrames view_frames;
         const bool draws = frames != nullptr && v < static_cast<std::size_t>(options.frames);
         for (std::size_t c = 0; c < candidates.size(); ++c) {
@@ -317,6 +327,12 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
             run.violations = checked.violations;
             run.violations_in_cycles = checked.violations_in_cycles;
             description.overlapping_pairs = checked.overlapping.size();
+            if (audit) {
+                const RayAuditResult shown = audit->check(order, checked.unorderable);
+                run.audit_rays = shown.rays;
+                run.audit_pairs = shown.pairs;
+                run.audit_violations = shown.violations;
+            }
             if (draws)
                 view_frames.keep(frames->draw(views[v].view, order), order, run);
         }

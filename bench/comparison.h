@@ -29,6 +29,8 @@ struct ComparisonOptions {
     bool weld = false;                        ///< points of files with exactly equal coordinates, or
     double weld_tolerance = 0;                ///< within this distance of each other
     std::string scalar;                       ///< of files; empty: the format's default
+    std::string time;                         ///< of files, as in ReadOptions
+    std::size_t audit_rays = 0;               ///< from each view, that orders are held against; 0: none
     SorterOptions sorter_options;
     int frames = 1; ///< views from which the scene is drawn in every order, where it can be drawn and has no more than
     std::size_t frames_up_to = 500'000; ///< cells, for what can take minutes beyond
@@ -64,13 +66,19 @@ struct RunResult {
     std::size_t violations_in_cycles = 0; ///< of relations that no order can satisfy all of
     std::size_t cycles = 0;
     std::size_t cells_in_cycles = 0;
+    std::size_t audit_rays = 0;
+    std::size_t audit_pairs = 0;      ///< that they show, of cells behind each other (see RayAudit)
+    std::size_t audit_violations = 0; ///< distinct ones that the order has the wrong way round, outside of cycles
     std::optional<double> image_rmse;
     std::optional<double> image_max;
     std::vector<Statistic> statistics; ///< of the last sort
     std::string skipped;               ///< why, where the sorter cannot take the scene; nothing else is measured then
 
     /// Whether the sorter broke its promise.
-    bool failed() const { return skipped.empty() && guarantee != Guarantee::approximate && violations > 0; }
+    bool failed() const
+    {
+        return skipped.empty() && guarantee != Guarantee::approximate && violations + audit_violations > 0;
+    }
 };
 
 /// A file or generated scene that could not be compared on.
@@ -88,7 +96,8 @@ struct Comparison {
     bool failed() const;
 };
 
-/// Runs every sorter on every scene from every view: times it, and holds its orders against all relations. Scenes are
+/// Runs every sorter on every scene from every view: times it, and holds its orders against all relations and, if asked
+/// to, against rays. Scenes are
 /// made one after another and released. Frames are drawn apart from the timed sorts. `progress` is told in a few words
 /// what is being done. A file or a scene that cannot be taken is among `refused`, and the others are compared on
 /// nevertheless. Throws InputError for a sorter that there is not.

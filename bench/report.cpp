@@ -21,6 +21,8 @@ struct Row {
     std::size_t relations = 0;
     std::size_t violations = 0;
     std::size_t violations_in_cycles = 0;
+    std::size_t audit_pairs = 0;
+    std::size_t audit_violations = 0;
     std::size_t cycles = 0;
     std::size_t cells_in_cycles = 0;
     std::size_t bytes = 0;
@@ -41,6 +43,8 @@ std::vector<Row> rows_of(const Comparison& comparison)
         row.relations += run.relations;
         row.violations += run.violations;
         row.violations_in_cycles += run.violations_in_cycles;
+        row.audit_pairs += run.audit_pairs;
+        row.audit_violations += run.audit_violations;
         row.cycles += run.cycles;
         row.cells_in_cycles += run.cells_in_cycles;
         row.bytes = std::max(row.bytes, run.structure_bytes);
@@ -109,6 +113,9 @@ std::string line_of(const Row& row, std::size_t cells)
         row.cycles == 0 ? "0" : fmt::format("{} ({} cells)", row.cycles, with_commas(row.cells_in_cycles));
     if (row.violations_in_cycles > 0)
         cycles += fmt::format(", {} broken in them", with_commas(row.violations_in_cycles));
+    if (run.audit_rays > 0)
+        cycles += fmt::format("; rays: {} wrong of {} pairs", with_commas(row.audit_violations),
+                              with_commas(row.audit_pairs));
     return fmt::format("  {:<16} {:<11} {:>10} {:>10} {:>8.1f} {:>8.1f}  {:>11} of {:<13} {:>8}   {}", run.sorter,
                        name(run.guarantee), seconds(run.prepare_s), seconds(sort_s),
                        static_cast<double>(cells) / sort_s / 1e6, static_cast<double>(row.bytes) / 0x1p20,
@@ -227,6 +234,9 @@ std::string json(const Comparison& comparison, const Machine& machine)
             entry["relations"] = run.relations;
             entry["violations"] = run.violations;
             entry["violations_in_cycles"] = run.violations_in_cycles;
+            entry["audit_rays"] = run.audit_rays;
+            entry["audit_pairs"] = run.audit_pairs;
+            entry["audit_violations"] = run.audit_violations;
             entry["cycles"] = run.cycles;
             entry["cells_in_cycles"] = run.cells_in_cycles;
             entry["image_rmse"] = or_null(run.image_rmse);

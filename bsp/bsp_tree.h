@@ -13,10 +13,11 @@
 
 namespace visorder {
 
-/// A binary space partition of the boundary faces of a scene (Fuchs, Kedem, Naylor 1980; Comba et al. 1999), or of the
-/// triangles of a surface. Every inner node has the plane of one of the faces, chosen among a sample by how many others
-/// it splits and how evenly it divides them; it keeps the faces that lie in this plane. A leaf keeps a few faces
-/// without an order of their own. Depends on the points alone: the eye, scalars and transfer functions may change.
+/// A binary space partition (Fuchs, Kedem, Naylor 1980; Comba et al. 1999) of the relation faces of a scene, which are
+/// its boundary faces where no cells overlap, or of the triangles of a surface. Every inner node has the plane of one
+/// of the faces, chosen among a sample by how many others it splits and how evenly it divides them; it keeps the faces
+/// that lie in this plane. A leaf keeps a few faces without an order of their own. Depends on the points alone: the
+/// eye, scalars and transfer functions may change.
 ///
 /// Splits are combinatorial: a face that a plane may cut goes to both sides whole. It stays out of a side only where
 /// its vertices prove it, exactly, or where what earlier cuts leave of it, computed with a proved margin, lies clearly
@@ -28,7 +29,7 @@ public:
     /// The same tree for the same scene and seed on any number of threads.
     BspTree(const Scene& scene, std::uint64_t seed);
 
-    /// The faces: the scene's boundary faces, or its triangles as face 0 of each.
+    /// The faces: the scene's relation faces, or its triangles as face 0 of each.
     std::span<const CellFace> faces() const { return faces_; }
     /// In how many groups each of them is; none for a face without area.
     std::span<const std::uint32_t> group_counts() const { return group_counts_; }

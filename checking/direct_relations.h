@@ -21,7 +21,7 @@ struct DirectOptions {
 /// The relation "A occludes B" of all pairs of a scene's cells from one eye, from its definition: the truth for scenes
 /// of some thousand cells. Pair by pair it is decided from the two cells' vertices and the eye (see convex_body.h),
 /// with no knowledge of faces, neighbours, the boundary, or which cells overlap. With the sorters it shares the
-/// predicate `side_of_plane` and, for the sets that have no order, `strongly_connected_components`.
+/// predicate `side_of_plane`, the box hierarchy and, for the sets that have no order, `strongly_connected_components`.
 ///
 /// Flat cells, and triangles seen edge-on, occlude nothing and are occluded by nothing. Two cells that each occlude the
 /// other overlap in space, or are triangles that cross as seen from the eye: they have no order and no relation.

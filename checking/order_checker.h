@@ -86,8 +86,14 @@ private:
 /// if and only if it satisfies these (Williams 1992; Silva, Mitchell and Williams 1998). In a surface scene, the
 /// relations are all pairs of triangles of which one covers the other.
 ///
-/// All decisions are exact, and none is shared with the sorters but the predicates themselves. Results do not depend on
-/// the number of threads. The Scene must outlive the checker; any number of threads may use one.
+/// Where relations run in cycles, some go unsatisfied, and pairs that one of them would have put in order are tried one
+/// by one: see cycle_crossings.h.
+///
+/// All decisions are exact. Relations across interior faces are evaluated here, one by one, from what the scene knows
+/// of its cells (adjacency, orientations, overlapping cells), as the sorters' are; those of boundary faces come from
+/// sorting/boundary_relations, as those of `xmpvo-exact` do. DirectRelations and RayAudit are truths that share none of
+/// this. Results do not depend on the number of threads. The Scene must outlive the checker; any number of threads may
+/// use one.
 class OrderChecker {
 public:
     /// Throws InputError, naming a cell, for a scene with faces that are not planar.

@@ -1,11 +1,11 @@
 #include "files/file_content.h"
 
+#include "files/mapped_file.h"
 #include "scene/error.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
 #include <zlib.h>
 
@@ -46,21 +46,13 @@ private:
 
 std::string content_of_file(const std::filesystem::path& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    std::error_code error;
-    const auto size = std::filesystem::file_size(path, error);
-    if (!file || error)
-        fail(path, "cannot be opened");
-    std::string content(size, '\0');
-    file.read(content.data(), static_cast<std::streamsize>(size));
-    if (file.gcount() != static_cast<std::streamsize>(size))
-        fail(path, "cannot be read");
-    return content;
+    return std::string(MappedFile(path).content());
 }
 
 std::string decompressed(const std::filesystem::path& path, std::string_view gzip)
 {
-    constexpr std::size_t most = std::size_t{4} << 30;
+    // gzip makes zeros a thousand times smaller, but no mesh so much.
+    const std::size_t most = (std::size_t{256} << 20) + 50 * gzip.size();
     Inflation inflation;
     if (!inflation.is_ready())
         fail(path, "cannot be decompressed: zlib cannot start");
@@ -87,7 +79,7 @@ std::string decompressed(const std::filesystem::path& path, std::string_view gzi
             fail(path, fmt::format("cannot be decompressed: not gzip, or damaged at byte {}", at));
         result.append(buffer.data(), buffer.size() - inflation.stream.avail_out);
         if (result.size() > most)
-            fail(path, "cannot be decompressed: it holds more than 4 GiB");
+            fail(path, fmt::format("cannot be decompressed: it holds more than {} bytes", most));
     }
     return result;
 }

@@ -6,10 +6,11 @@
 
 namespace visorder {
 
-/// The bytes of a file. Throws InputError, naming it, where it cannot be read.
+/// The bytes of a regular file. Throws InputError, naming it, where it cannot be read.
 std::string content_of_file(const std::filesystem::path& path);
 
-/// What gzip made these bytes of: one member or several. At most 4 GiB. Throws InputError, naming the file.
+/// What gzip made these bytes of: one member or several. At most 256 MiB
+/// and 50 times as much as the bytes given. Throws InputError, naming the file.
 std::string decompressed(const std::filesystem::path& path, std::string_view gzip);
 
 } // namespace visorder

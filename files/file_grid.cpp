@@ -109,8 +109,9 @@ public:
             take(*array);
         tell(array);
         note(drop_unused_points(mesh()), "points that no cell uses left out");
-        note(joined_, options_.weld ? "points joined with others of the same coordinates"
-                                    : "points joined with those of other pieces at the same coordinates");
+        note(joined_, !options_.weld                ? "points joined with those of other pieces at the same coordinates"
+                      : options_.weld_tolerance > 0 ? "points joined with others near them"
+                                                    : "points joined with others of the same coordinates");
         return std::move(result_);
     }
 
@@ -132,7 +133,8 @@ private:
 
     void join_points()
     {
-        points_ = options_.weld ? join_all(grid_.points) : join_pieces(grid_.points, grid_.pieces);
+        points_ =
+            options_.weld ? join_all(grid_.points, options_.weld_tolerance) : join_pieces(grid_.points, grid_.pieces);
         joined_ = grid_.points.size() - points_.kept.size();
         if (joined_ == 0) {
             mesh().points = std::move(grid_.points);

@@ -6,6 +6,7 @@
 #include "files/gmsh_input.h"
 #include "files/printable.h"
 #include "files/time_step.h"
+#include "scene/error.h"
 
 #include <algorithm>
 #include <array>
@@ -77,7 +78,7 @@ private:
             read_values(name == "ElementData");
         }
         input_.end_binary();
-        input_.skip_section(name);
+        input_.skip_section(name == "NOD" || name == "ELM" ? "$END" + name : "$End" + name);
     }
 
     void read_format()
@@ -253,7 +254,7 @@ private:
         }
         const std::size_t reals = text.count("the number of times");
         for (std::size_t i = 0; i < reals; ++i)
-            if (const double real = text.real("a time"); i == 0)
+            if (const double real = text.real("a time"); i == 0 && std::isfinite(real))
                 values.time = real;
         const std::size_t integers = text.count("the number of integers");
         std::int64_t count = 0;
@@ -292,7 +293,8 @@ private:
             for (; i < grid_.ends[cell]; ++i) {
                 const auto node = nodes_.find(grid_.corners[i]);
                 if (node == nodes_.end())
-                    input_.fail(fmt::format("cell {}: there is no node {}", cell, grid_.corners[i]));
+                    throw InputError(
+                        fmt::format("{}: cell {}: there is no node {}", grid_.path.string(), cell, grid_.corners[i]));
                 grid_.corners[i] = static_cast<std::int64_t>(node->second);
             }
     }

@@ -67,10 +67,9 @@ public:
         return static_cast<std::size_t>(count);
     }
 
-    /// Goes on after the line that ends a section.
-    void skip_section(std::string_view name)
+    /// Goes on after the word that ends a section.
+    void skip_section(const std::string& end)
     {
-        const std::string end = "$End" + std::string(name);
         const std::size_t found = text_.text().find(end, text_.position());
         if (found == std::string_view::npos)
             text_.fail("there is no " + end);

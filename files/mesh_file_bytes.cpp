@@ -14,10 +14,12 @@ namespace {
 constexpr std::uint64_t layout =
     0x7669736f72640001u + (sizeof(ReadOptions) << 16) + (sizeof(MeshFile) << 24) + (sizeof(MeshBlock) << 32);
 
+// A field that is added and not listed here does not compile.
 template <class Archive>
 void transfer(Archive& archive, ReadOptions& options)
 {
-    archive(options.scalar, options.list_arrays, options.weld, options.weld_tolerance, options.time, options.isolated);
+    auto& [scalar, weld, weld_tolerance, time, isolated, list_arrays] = options;
+    archive(scalar, weld, weld_tolerance, time, isolated, list_arrays);
 }
 
 template <class Archive>
@@ -29,7 +31,8 @@ void transfer(Archive& archive, ReadRequest& request)
 template <class Archive>
 void transfer(Archive& archive, MeshBlock& block)
 {
-    archive(block.name, block.first_file_cell);
+    auto& [name, first_file_cell] = block;
+    archive(name, first_file_cell);
 }
 
 template <class Archive>
@@ -48,13 +51,15 @@ void transfer(Archive& archive, ArraySummary& array)
 template <class Archive>
 void transfer(Archive& archive, Mesh& mesh)
 {
-    archive(mesh.points, mesh.shapes, mesh.offsets, mesh.vertices, mesh.scalars);
+    auto& [points, shapes, offsets, vertices, scalars] = mesh;
+    archive(points, shapes, offsets, vertices, scalars);
 }
 
 template <class Archive>
 void transfer(Archive& archive, MeshFile& file)
 {
-    archive(file.mesh, file.scalar, file.notes, file.file_cells, file.blocks, file.scalar_map, file.arrays);
+    auto& [mesh, scalar, scalar_map, notes, file_cells, blocks, arrays] = file;
+    archive(mesh, scalar, scalar_map, notes, file_cells, blocks, arrays);
 }
 
 template <class T>

@@ -62,7 +62,7 @@ public:
         for (std::size_t i = 0; i < zones; ++i)
             if (!read_size())
                 return false;
-        return end_record(sizes_bytes) &&
+        return end_record(sizes_bytes) && !has_third_size() &&
                std::all_of(sizes_.begin(), sizes_.end(), [&](const glm::ivec3& size) { return measure_zone(size); });
     }
 
@@ -136,6 +136,17 @@ private:
         }
         sizes_.push_back(size);
         return true;
+    }
+
+    /// Whether a grid of points in a plane would begin with a coordinate that looks like a size: then it is the
+    /// beginning of a grid of points in space.
+    bool has_third_size() const
+    {
+        constexpr std::int32_t greatest = 65535;
+        if (layout_.axes == 3 || layout_.fortran || bytes_.size() - at_ < 4)
+            return false;
+        const auto next = raw<std::int32_t>(at_);
+        return next >= 1 && next <= greatest;
     }
 
     bool skip(std::size_t bytes)

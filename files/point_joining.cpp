@@ -1,9 +1,12 @@
 #include "files/point_joining.h"
 
+#include "scene/mesh.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace visorder {
 
@@ -93,14 +96,19 @@ JoinedPoints join_pieces(std::span<const glm::dvec3> points, std::span<const std
     return numbered(representative);
 }
 
-JoinedPoints join_all(std::span<const glm::dvec3> points)
+JoinedPoints join_all(std::span<const glm::dvec3> points, double tolerance)
 {
-    std::vector<PointId> representative = themselves(points.size());
-    for_equal_sets(points, [&](std::span<const PointId> set) {
-        for (const PointId point : set)
-            representative[point] = set.front();
-    });
-    return numbered(representative);
+    // Vertices are renumbered with the points, so they tell what became of each.
+    Mesh mesh;
+    mesh.points.assign(points.begin(), points.end());
+    mesh.vertices = themselves(points.size());
+    weld(mesh, tolerance);
+    JoinedPoints joined;
+    joined.number = std::move(mesh.vertices);
+    for (std::size_t i = 0; i < joined.number.size(); ++i)
+        if (joined.number[i] == joined.kept.size())
+            joined.kept.push_back(static_cast<PointId>(i));
+    return joined;
 }
 
 } // namespace visorder

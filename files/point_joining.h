@@ -20,7 +20,7 @@ struct JoinedPoints {
 /// nothing is joined. Of points that become one the first stays, and points keep their order.
 JoinedPoints join_pieces(std::span<const glm::dvec3> points, std::span<const std::size_t> pieces);
 
-/// Joins all points with exactly equal coordinates, as `weld` does.
-JoinedPoints join_all(std::span<const glm::dvec3> points);
+/// Joins all points with exactly equal coordinates, or within that distance, as `weld` does.
+JoinedPoints join_all(std::span<const glm::dvec3> points, double tolerance = 0);
 
 } // namespace visorder

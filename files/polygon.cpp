@@ -1,19 +1,16 @@
 #include "files/polygon.h"
 
+#include "files/plane_points.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <set>
 
 namespace visorder {
 
 namespace {
-
-/// Twice the signed area of a triangle in the plane.
-double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
-{
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 /// The corners seen along the axis that is nearest to the polygon's mean normal, counterclockwise.
 std::vector<glm::dvec2> flattened(std::span<const PointId> polygon, std::span<const glm::dvec3> points)
@@ -39,56 +36,70 @@ std::vector<glm::dvec2> flattened(std::span<const PointId> polygon, std::span<co
 /// The corners that are left of a polygon while ears are cut off it.
 class EarClipping {
 public:
-    explicit EarClipping(std::vector<glm::dvec2> corners) : flat_(std::move(corners)), is_ear_(flat_.size())
+    explicit EarClipping(std::vector<glm::dvec2> corners)
+        : flat_(std::move(corners)), points_(flat_), before_(flat_.size()), after_(flat_.size()), size_(flat_.size())
     {
-        for (std::size_t i = 0; i < flat_.size(); ++i)
-            remaining_.push_back(i);
-        for (std::size_t at = 0; at < remaining_.size(); ++at)
-            update(at);
+        for (std::size_t i = 0; i < size_; ++i) {
+            before_[i] = (i + size_ - 1) % size_;
+            after_[i] = (i + 1) % size_;
+        }
+        for (std::size_t i = 0; i < size_; ++i)
+            update(i);
     }
 
-    std::size_t size() const { return remaining_.size(); }
+    std::size_t size() const { return size_; }
 
     /// Cuts off a corner; gives it between its neighbours.
     std::array<std::size_t, 3> cut()
     {
-        const std::size_t n = remaining_.size();
-        // Started at the second corner, so that what stays of a convex polygon keeps its first.
-        std::size_t at = 1;
-        while (at <= n && !is_ear_[remaining_[at % n]])
-            ++at;
-        // Without an ear the polygon has no area left or crosses itself; any corner will do.
-        at = at > n ? 1 : at % n;
-        const std::array triangle{remaining_[(at + n - 1) % n], remaining_[at], remaining_[(at + 1) % n]};
-        remaining_.erase(remaining_.begin() + static_cast<std::ptrdiff_t>(at));
-        if (remaining_.size() >= 3) {
-            update((at + remaining_.size() - 1) % remaining_.size());
-            update(at % remaining_.size());
+        const std::size_t corner = next();
+        const std::array triangle{before_[corner], corner, after_[corner]};
+        ears_.erase(corner);
+        points_.remove(corner);
+        after_[before_[corner]] = after_[corner];
+        before_[after_[corner]] = before_[corner];
+        if (corner == first_)
+            first_ = after_[corner];
+        if (--size_ >= 3) {
+            update(before_[corner]);
+            update(after_[corner]);
         }
         return triangle;
     }
 
 private:
+    /// The first ear after the first corner, so that what stays of a convex polygon keeps that.
+    std::size_t next() const
+    {
+        const auto ear = ears_.upper_bound(first_);
+        if (ear != ears_.end())
+            return *ear;
+        // Without an ear the polygon has no area left or crosses itself; any corner will do.
+        return ears_.empty() ? after_[first_] : first_;
+    }
+
     /// Finds out whether the corner can be cut off: it points outward, and no other lies in its triangle. Cutting off
     /// another corner changes that of its neighbours alone: in a triangle that holds corners of a simple polygon there
     /// is one that points inward, which is never cut off.
-    void update(std::size_t at)
+    void update(std::size_t corner)
     {
-        const std::size_t n = remaining_.size();
-        const glm::dvec2& a = flat_[remaining_[(at + n - 1) % n]];
-        const glm::dvec2& b = flat_[remaining_[at]];
-        const glm::dvec2& c = flat_[remaining_[(at + 1) % n]];
-        is_ear_[remaining_[at]] =
-            area(a, b, c) > 0 && std::none_of(remaining_.begin(), remaining_.end(), [&](std::size_t corner) {
-                const glm::dvec2& p = flat_[corner];
-                // Corners may coincide with those of the ear, where the polygon touches itself.
-                return p != a && p != b && p != c && area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
-            });
+        const glm::dvec2& a = flat_[before_[corner]];
+        const glm::dvec2& b = flat_[corner];
+        const glm::dvec2& c = flat_[after_[corner]];
+        // Corners may coincide with those of the ear, where the polygon touches itself.
+        if (doubled_area(a, b, c) > 0 && !points_.any_in(a, b, c))
+            ears_.insert(corner);
+        else
+            ears_.erase(corner);
     }
 
     std::vector<glm::dvec2> flat_;
-    std::vector<bool> is_ear_; // for each corner of the whole polygon
-    std::vector<std::size_t> remaining_;
+    PlanePoints points_; // of the corners that are left
+    std::vector<std::size_t> before_;
+    std::vector<std::size_t> after_;
+    std::size_t size_;
+    std::size_t first_ = 0;
+    std::set<std::size_t> ears_;
 };
 
 } // namespace

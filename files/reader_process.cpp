@@ -1,6 +1,7 @@
 #include "files/reader_process.h"
 
 #include "files/mesh_file_bytes.h"
+#include "reader_folders.h"
 #include "scene/error.h"
 
 #include <algorithm>
@@ -256,10 +257,10 @@ std::filesystem::path reader_program()
     // The library may be part of a shared object, such as a module of Python.
     if (Dl_info object{}; dladdr(reinterpret_cast<const void*>(&reader_program), &object) != 0 && object.dli_fname)
         beside(object.dli_fname);
-    folders.emplace_back(VISORDER_READER_BUILT);
-    folders.emplace_back(VISORDER_READER_INSTALLED);
+    folders.emplace_back(built_reader_folder);
+    folders.emplace_back(installed_reader_folder);
     for (const std::filesystem::path& folder : folders)
-        if (const auto program = folder / "visorder-read"; access(program.c_str(), X_OK) == 0)
+        if (auto program = folder / "visorder-read"; access(program.c_str(), X_OK) == 0)
             return program;
     return {};
 }

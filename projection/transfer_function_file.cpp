@@ -1,12 +1,13 @@
 #include "projection/transfer_function_file.h"
 
+#include "files/input_content.h"
+#include "files/printable.h"
 #include "projection/paraview_colour_map.h"
 #include "scene/error.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -16,17 +17,23 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
+constexpr int most_depth = 50; // of arrays and objects within others, which messages are made of by recursion
+
 json parse(const std::filesystem::path& file)
 {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw InputError("cannot be opened");
+    const std::string content = input_content(file, most_bytes);
+    const auto check_depth = [](int depth, json::parse_event_t, json&) {
+        if (depth > most_depth)
+            throw InputError(fmt::format("arrays and objects are nested more than {} deep", most_depth));
+        return true;
+    };
     try {
-        return json::parse(stream);
+        return json::parse(content, check_depth);
     } catch (const json::exception& error) {
         const std::string message = error.what(); // [name of the error] what is wrong
         const std::size_t begin = message.find("] ");
-        throw InputError("no JSON: " + (begin == std::string::npos ? message : message.substr(begin + 2)));
+        throw InputError("no JSON: " + printable(begin == std::string::npos ? message : message.substr(begin + 2)));
     }
 }
 

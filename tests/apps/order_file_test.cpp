@@ -83,5 +83,19 @@ TEST(OrderFile, SaysWhatIsWrongWithAFile)
     EXPECT_NE(message_of(folder / "g.npy").find("one dimension"), std::string::npos);
 }
 
+TEST(OrderFile, TakesNoHugeCountOrHeader)
+{
+    const TemporaryFolder folder;
+    // 2^62 numbers of 4 bytes are, modulo 2^64, none.
+    for (const char* shape : {"(4611686018427387904,)", "(99999999999999999999999,)"}) {
+        write(folder / "a.npy", npy("<u4", shape, ""));
+        EXPECT_NE(message_of(folder / "a.npy").find("shape"), std::string::npos) << shape;
+    }
+    std::string long_header = std::string("\x93NUMPY\x02\x00\x00\x00\x10\x00", 12);
+    long_header += "{'descr': '<u4', 'shape': (" + std::string(1 << 20, '1');
+    write(folder / "b.npy", long_header);
+    EXPECT_NE(message_of(folder / "b.npy").find("header"), std::string::npos);
+}
+
 } // namespace
 } // namespace visorder::tests

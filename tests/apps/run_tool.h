@@ -25,7 +25,8 @@ inline Outcome run(const std::string& arguments)
     std::array<char, 4096> buffer;
     for (std::size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
         outcome.output.append(buffer.data(), n);
-    outcome.code = WEXITSTATUS(pclose(pipe));
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); // as shells have it
     return outcome;
 }
 

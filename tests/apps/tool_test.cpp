@@ -39,6 +39,50 @@ TEST(Tool, SortsAndChecksWhatItSorted)
     EXPECT_NE(wrong.output.find("is painted before it"), std::string::npos) << wrong.output;
 }
 
+TEST(Tool, ChecksByRaysAndByAllPairs)
+{
+    const TemporaryFolder folder;
+    const std::string order = (folder / "order.npy").string();
+    ASSERT_EQ(run("sort --scene delaunay:3000 --sorter mpvo --direction 0,0,1 -o " + order).code, 0);
+    const Outcome right = run("check --scene delaunay:3000 " + order + " --direction 0,0,1 --rays 300 --pairs");
+    EXPECT_EQ(right.code, 0) << right.output;
+    EXPECT_NE(right.output.find("\nall pairs: 0 of "), std::string::npos) << right.output;
+    EXPECT_NE(right.output.find("\n300 rays: "), std::string::npos) << right.output;
+    EXPECT_NE(right.output.find(", 0 pairs in the wrong order"), std::string::npos) << right.output;
+    const Outcome wrong = run("check --scene delaunay:3000 " + order + " --direction 0,0,-1 --rays 300 --witnesses 1");
+    EXPECT_EQ(wrong.code, 1) << wrong.output;
+    EXPECT_EQ(wrong.output.find("all pairs"), std::string::npos) << wrong.output;
+    EXPECT_EQ(wrong.output.find(" 0 pairs in the wrong order"), std::string::npos) << wrong.output;
+    // Unasked, where there are few cells.
+    ASSERT_EQ(run("sort --scene carved:900 --direction 0,0,1 -o " + order).code, 0);
+    const Outcome small = run("check --scene carved:900 " + order + " --direction 0,0,1");
+    EXPECT_EQ(small.code, 0) << small.output;
+    EXPECT_NE(small.output.find("\nall pairs: 0 of "), std::string::npos) << small.output;
+}
+
+TEST(Tool, ComparesAgainstRays)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "result.json").string();
+    const Outcome outcome =
+        run("compare --scene carved:900 --sorters centroid,bsp-xmpvo --views 2 --frames 0 --audit 400 "
+            "--json " +
+            file);
+    ASSERT_EQ(outcome.code, 0) << outcome.output;
+    const auto result = nlohmann::json::parse(read(file));
+    ASSERT_EQ(result["runs"].size(), 4u);
+    std::size_t wrong_centroid = 0;
+    for (const auto& run : result["runs"]) {
+        EXPECT_EQ(run["audit_rays"], 400);
+        EXPECT_GT(run["audit_pairs"], 400);
+        if (run["sorter"] == "centroid")
+            wrong_centroid += run["audit_violations"].get<std::size_t>();
+        else
+            EXPECT_EQ(run["audit_violations"], 0);
+    }
+    EXPECT_GT(wrong_centroid, 0u);
+}
+
 TEST(Tool, ComparesAndWritesTheResultFormat)
 {
     const TemporaryFolder folder;

@@ -71,7 +71,7 @@ TEST(BspTree, HasEveryFaceThatHasArea)
     const auto expect_all_faces = [](const Mesh& mesh, const std::string& name) {
         const Scene scene(mesh);
         const BspTree tree(scene, 1);
-        ASSERT_EQ(tree.faces().size(), scene.is_surface() ? scene.cell_count() : scene.boundary().faces.size());
+        ASSERT_EQ(tree.faces().size(), scene.is_surface() ? scene.cell_count() : scene.relation_faces().size());
         ASSERT_EQ(tree.group_counts().size(), tree.faces().size());
         std::size_t groups = 0, placed = 0;
         for (std::size_t i = 0; i < tree.faces().size(); ++i) {

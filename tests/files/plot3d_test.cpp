@@ -2,6 +2,7 @@
 #include "tests/temporary_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <gmock/gmock.h>
 
@@ -211,4 +212,121 @@ TEST(Plot3d, RefusesWhatIsNoGrid)
         EXPECT_EQ(reading_error(folder.write("noxyz.bin", content)),
                   "cannot be read: its length is that of no Plot3D file");
     EXPECT_THAT(reading_error(folder.write("aq.bin", solution(plain))), HasSubstr("not a name of a mesh file"));
+}
+
+namespace {
+
+/// Two grids of unit cubes, 3 x 2 x 2 points and 2 x 2 x 2, the second on the side x = 2 of the first.
+constexpr std::array<std::array<int, 3>, 2> sizes{{{3, 2, 2}, {2, 2, 2}}};
+
+int count(std::size_t zone)
+{
+    return sizes[zone][0] * sizes[zone][1] * sizes[zone][2];
+}
+
+std::string two_grids(const Writing& writing, bool is_solution, bool blanks)
+{
+    Records records(writing);
+    records.integer(2).end();
+    for (const auto& size : sizes)
+        for (const int along : size)
+            records.integer(along);
+    records.end();
+    for (std::size_t zone = 0; zone < 2; ++zone) {
+        if (is_solution) {
+            records.real(1).real(2).real(3).real(4).end();
+            for (int k = 0; k < 5; ++k)
+                for (int i = 0; i < count(zone); ++i)
+                    records.real(k == 0 ? 100 * static_cast<int>(zone) + i : 0);
+        } else {
+            for (int i = 0; i < count(zone); ++i)
+                records.real(i % sizes[zone][0] + 2 * static_cast<int>(zone));
+            for (int i = 0; i < count(zone); ++i)
+                records.real(i / sizes[zone][0] % 2);
+            for (int i = 0; i < count(zone); ++i)
+                records.real(i / (2 * sizes[zone][0]));
+            for (int i = 0; blanks && i < count(zone); ++i)
+                records.integer(zone == 0 && i == 0 ? 0 : 1);
+        }
+        records.end();
+    }
+    return records.file();
+}
+
+} // namespace
+
+TEST(Plot3d, JoinsSeveralGridsWhereTheirPointsAreEqual)
+{
+    for (const Writing& writing : all_writings())
+        for (const bool blanks : {false, true}) {
+            const auto path = folder.write("twoxyz.bin", two_grids(writing, false, blanks));
+            folder.write("twoq.bin", two_grids(writing, true, false));
+            const MeshFile file = read_mesh(path);
+            EXPECT_THAT(file.mesh.shapes, SizeIs(blanks ? 2 : 3));
+            EXPECT_EQ(file.mesh.points.size(), blanks ? 12u : 16u);
+            EXPECT_THAT(file.file_cells,
+                        blanks ? testing::ElementsAreArray({1u, 2u}) : testing::ElementsAreArray({0u, 1u, 2u}));
+            EXPECT_THAT(file.notes,
+                        testing::Contains("4 points joined with those of other pieces at the same coordinates"));
+            EXPECT_EQ(file.mesh.scalars.back(), 107);
+            ASSERT_THAT(file.blocks, SizeIs(2));
+            EXPECT_EQ(file.blocks[1].name, "grid 2");
+            EXPECT_EQ(file.blocks[1].first_file_cell, 2u);
+        }
+}
+
+TEST(Plot3d, FindsPrecisionByteOrderAndRecordsOfTheSolutionByItself)
+{
+    for (const Writing& grid_writing : all_writings())
+        for (const Writing& solution_writing : all_writings()) {
+            const auto path = folder.write("mixedxyz.bin", grid(grid_writing));
+            folder.write("mixedq.bin", solution(solution_writing));
+            EXPECT_THAT(read_mesh(path).mesh.scalars, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+        }
+}
+
+TEST(Plot3d, ReadsText)
+{
+    const std::string coordinates = "0 1 2 0 1 2 0 1 2 0 1 2\n3*0. 3*1.0E0 3*0 3*1d0\n6*0, 6*1\n";
+    const std::string values = "0.1 0 1e5 0\n0 1 2 3 4 5 6 7 8 9 10 11\n12*0 12*3 12*4 12*7\n";
+    for (const std::string counted : {"", "1\n"}) {
+        const auto path = folder.write("textxyz.bin", counted + "3 2 2\n" + coordinates);
+        folder.write("textq.bin", counted + "3 2 2\n" + values);
+        const MeshFile file = read_mesh(path);
+        EXPECT_THAT(file.mesh.cell(1), ElementsAre(1, 2, 5, 4, 7, 8, 11, 10));
+        EXPECT_EQ(file.mesh.points[11], glm::dvec3(2, 1, 1));
+        EXPECT_THAT(file.mesh.scalars, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11));
+        EXPECT_THAT(read_mesh(path, {.scalar = "Momentum"}).mesh.scalars, Each(5));
+    }
+    const auto blanked = folder.write("blanktextxyz.bin", "3 2 2\n" + coordinates + "0 11*1\n");
+    EXPECT_THAT(read_mesh(blanked).file_cells, ElementsAre(1));
+    for (const std::string text : {"3 2 2\n1 2 3", "3 2 2", "0 0 0", "99999 99999 99999", "2 3 2 2"})
+        EXPECT_EQ(reading_error(folder.write("badxyz.bin", text)),
+                  "cannot be read: its length is that of no Plot3D file");
+}
+
+TEST(Plot3d, ReadsGridsInThePlane)
+{
+    Records grid_records(plain), solution_records(plain);
+    grid_records.integer(2).integer(2);
+    for (const double coordinate : {0, 1, 0, 1, 0, 0, 1, 1})
+        grid_records.real(coordinate);
+    solution_records.integer(2).integer(2).real(0).real(0).real(0).real(0);
+    for (int i = 0; i < 16; ++i)
+        solution_records.real(i);
+    const auto path = folder.write("planexyz.bin", grid_records.end().file());
+    folder.write("planeq.bin", solution_records.end().file());
+    const MeshFile file = read_mesh(path);
+    EXPECT_THAT(file.mesh.vertices, ElementsAre(0, 1, 3, 0, 3, 2));
+    EXPECT_THAT(file.mesh.scalars, ElementsAre(0, 1, 2, 3));
+    EXPECT_EQ(read_mesh(path, {.scalar = "StagnationEnergy"}).mesh.scalars[3], 15);
+}
+
+TEST(Plot3d, KnowsTheNamesOfItsFiles)
+{
+    for (const auto& [grid_name, solution_name] :
+         {std::pair{"a.xyz", "a.q"}, {"b.x", "b.q"}, {"c.p3d", "c.q"}, {"D.XYZ", "D.Q"}, {"Exyz.bin", "Eq.bin"}}) {
+        folder.write(solution_name, solution(plain));
+        EXPECT_THAT(read_mesh(folder.write(grid_name, grid(plain))).mesh.scalars, SizeIs(points)) << grid_name;
+    }
 }

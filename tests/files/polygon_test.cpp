@@ -1,8 +1,10 @@
 #include "files/polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
+#include <numbers>
 #include <numeric>
 
 using namespace visorder;
@@ -84,4 +86,19 @@ TEST(Polygon, SplitsOneWithoutAreaAllTheSame)
 TEST(Polygon, SplitsOneThatCrossesItself)
 {
     EXPECT_THAT(split({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}), SizeIs(2));
+}
+
+TEST(Polygon, TakesPolygonsOfManyCorners)
+{
+    constexpr int corners = 100'000;
+    std::vector<glm::dvec3> circle, comb;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 2 * std::numbers::pi * i / corners;
+        circle.emplace_back(std::cos(angle), std::sin(angle), 0);
+        comb.emplace_back(i, i % 2 == 0 ? 0 : 1, 0); // teeth, every second corner of which points inward
+    }
+    comb.emplace_back(corners, 2, 0);
+    comb.emplace_back(-1, 2, 0);
+    for (const auto& points : {circle, comb, std::vector<glm::dvec3>(corners, glm::dvec3(1, 2, 3))})
+        EXPECT_THAT(split(points), SizeIs(points.size() - 2));
 }

@@ -1,10 +1,10 @@
 // Every VTK cell type: what shape it becomes, in which order its corners stand.
 
 #include "files/read_mesh.h"
-#include "tests/reading_error.h"
-#include "tests/temporary_folder.h"
 #include "scene/scene.h"
 #include "scene/subdivision.h"
+#include "tests/reading_error.h"
+#include "tests/temporary_folder.h"
 #include "vtu_text.h"
 
 #include <cmath>
@@ -119,7 +119,7 @@ TEST(CellKinds, CutsAPrismBesideAHexahedronAlikeOnBothSides)
                 for (int i = 0; i < sides; ++i) {
                     const double angle = 2 * 3.14159 * i / sides;
                     vtu.points[static_cast<std::size_t>(number(i, level))] = {std::cos(angle), std::sin(angle),
-                                                                             double(level)};
+                                                                              double(level)};
                     prism.push_back(number(i, level));
                 }
             for (int level = 0; level < 2; ++level)
@@ -128,9 +128,10 @@ TEST(CellKinds, CutsAPrismBesideAHexahedronAlikeOnBothSides)
                     vtu.points[static_cast<std::size_t>(2 * sides + 2 * level + i)] = {p[0] + 2, p[1] + 2, p[2]};
                 }
             const int outer = 2 * sides;
-            vtu.cells = {{type, prism},
-                         {VTK_HEXAHEDRON,
-                          {number(0, 0), outer, outer + 1, number(1, 0), number(0, 1), outer + 2, outer + 3, number(1, 1)}}};
+            vtu.cells = {
+                {type, prism},
+                {VTK_HEXAHEDRON,
+                 {number(0, 0), outer, outer + 1, number(1, 0), number(0, 1), outer + 2, outer + 3, number(1, 1)}}};
             const MeshFile file = read(vtu);
             EXPECT_EQ(std::count(file.file_cells.begin(), file.file_cells.end(), 1u), 1);
             EXPECT_THAT(file.notes, ElementsAre("1 prisms, convex point sets and polyhedra cut into tetrahedra"));

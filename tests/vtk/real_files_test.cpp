@@ -143,3 +143,21 @@ TEST(RealFiles, Surfaces)
         EXPECT_EQ(file.mesh.cell_count(), triangles) << name;
     }
 }
+
+TEST(RealFiles, FormatsReadByVtk)
+{
+    struct Model {
+        const char* name;
+        std::size_t cells; // of the file, in the mesh
+        std::size_t blocks;
+    };
+    for (const auto& [name, cells, blocks] :
+         {Model{"volumes/multicomb_0.vts", 440, 0}, Model{"volumes/two-block.g", 16, 2},
+          Model{"volumes/PentaHexa.vtk", 210, 0}, Model{"cases/par.pvtu", 48, 1}, Model{"cases/mb.vtm", 48, 1}}) {
+        const auto path = data(name);
+        SKIP_WITHOUT(path);
+        const MeshFile file = read_mesh(path);
+        EXPECT_EQ(std::set<std::uint64_t>(file.file_cells.begin(), file.file_cells.end()).size(), cells) << name;
+        EXPECT_EQ(file.blocks.size(), blocks) << name;
+    }
+}

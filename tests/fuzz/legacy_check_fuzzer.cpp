@@ -1,0 +1,15 @@
+#include "scene/error.h"
+#include "vtk/legacy_check.h"
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    try {
+        visorder::check_legacy_content({reinterpret_cast<const char*>(data), size});
+    } catch (const visorder::InputError&) {
+        // Damaged, and said to be.
+    }
+    return 0;
+}
