@@ -90,7 +90,8 @@ TEST(Adjacency, AFaceOfThreeCellsJoinsNone)
     Mesh mesh = two_tetrahedra();
     mesh.points.emplace_back(2, 2, 2);
     add_tetrahedron(mesh, 1, 2, 3, 5);
-    add_tetrahedron(mesh, 0, 1, 2, 5); // meets the first at another face
+    mesh.points.emplace_back(0, 0, -1);
+    add_tetrahedron(mesh, 0, 2, 1, 6); // meets the first at another face
     const Scene scene(std::move(mesh));
     EXPECT_EQ(crowded_of(scene), (std::set<std::set<CellId>>{{0, 1, 2}}));
     EXPECT_EQ(scene.traits().crowded_faces, 1u);
