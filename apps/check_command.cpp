@@ -118,6 +118,7 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
                    result.overlapping.size());
     list(result.overlapping, result.overlapping.size(), most,
          [&](const auto& pair) { fmt::print("  {} and {}\n", cells.name(pair.first), cells.name(pair.second)); });
+    tell_faults(stdout, sourced, scene);
     std::size_t violations = result.violations;
     if (arguments.pairs || scene.cell_count() <= few_cells)
         violations += check_pairs(scene, view, order, cells, most);

@@ -1,12 +1,18 @@
 #include "apps/commands.h"
 #include "apps/scene_source.h"
+#include "scene/scalar_interval.h"
 #include "scene/scene.h"
 #include "sorting/registry.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace visorder::apps {
 
@@ -17,11 +23,49 @@ const char* yes_or_no(bool yes)
     return yes ? "yes" : "no";
 }
 
+/// A number with six digits, or as many more as it takes to place it in an interval of this width.
+std::string placed_in(double width, double number)
+{
+    for (int digits = 6; digits < 17; ++digits) {
+        std::string text = fmt::format("{:.{}g}", number, digits);
+        if (!(std::abs(std::strtod(text.c_str(), nullptr) - number) > 1e-4 * width))
+            return text;
+    }
+    return fmt::format("{:.17g}", number);
+}
+
+std::string interval(double lowest, double highest)
+{
+    const double width = highest - lowest;
+    return fmt::format("from {} to {}", placed_in(width, lowest), placed_in(width, highest));
+}
+
+std::string corner(const glm::dvec3& point, const Box& box)
+{
+    const glm::dvec3 size = box.max - box.min;
+    return fmt::format("{},{},{}", placed_in(size.x, point.x), placed_in(size.y, point.y), placed_in(size.z, point.z));
+}
+
+void print_arrays(const std::vector<ArraySummary>& arrays)
+{
+    for (const ArraySummary& array : arrays) {
+        fmt::print("  array           {}: of {}, ", array.name, array.on_cells ? "cells" : "points");
+        if (!array.type.empty())
+            fmt::print("{}, ", array.type);
+        fmt::print("{} component{}{}, ", array.components, array.components == 1 ? "" : "s",
+                   array.holds_ids ? ", ids" : "");
+        fmt::print("{}", array.finite == 0 ? "nothing finite" : interval(array.lowest, array.highest));
+        if (array.missing > 0)
+            fmt::print(", {} missing", array.missing);
+        fmt::print("\n");
+    }
+}
+
 int run(SourcedMesh& sourced)
 {
-    const bool has_scalars = !sourced.mesh.scalars.empty();
-    const auto [low, high] = std::minmax_element(sourced.mesh.scalars.begin(), sourced.mesh.scalars.end());
-    const float least = has_scalars ? *low : 0, greatest = has_scalars ? *high : 0;
+    const std::optional<ScalarInterval> scalars = scalar_interval(sourced.mesh);
+    const bool all_missing = std::none_of(sourced.mesh.scalars.begin(), sourced.mesh.scalars.end(),
+                                          [](float scalar) { return std::isfinite(scalar); });
     std::array<std::size_t, 5> of_shape{};
     for (CellShape shape : sourced.mesh.shapes)
         ++of_shape[static_cast<std::size_t>(shape)];
@@ -38,13 +82,15 @@ int run(SourcedMesh& sourced)
         fmt::print("  (of {} cells, subdivided)", sourced.source_cells);
     const Box& box = scene.bounds();
     fmt::print("\n  points          {}\n", scene.mesh().points.size());
-    fmt::print("  bounds          {:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}\n", box.min.x, box.min.y, box.min.z,
-               box.max.x, box.max.y, box.max.z);
-    if (has_scalars)
-        fmt::print("  scalar          {} from {:.6g} to {:.6g}\n",
-                   sourced.scalar.empty() ? "(unnamed)" : sourced.scalar, least, greatest);
+    fmt::print("  bounds          {} to {}\n", corner(box.min, box), corner(box.max, box));
+    const ScalarMap& map = sourced.scalar_map;
+    if (scalars)
+        fmt::print("  scalar          {} {}\n", sourced.scalar.empty() ? "(unnamed)" : sourced.scalar,
+                   all_missing ? "has nothing finite"
+                               : interval(map.value(scalars->lowest), map.value(scalars->highest)));
     else
         fmt::print("  scalar          none\n");
+    print_arrays(sourced.arrays);
     const Traits& traits = scene.traits();
     fmt::print("  boundary        {} {} in {} components\n", scene.boundary().faces.size(),
                scene.is_surface() ? "edges" : "faces", scene.boundary().component_count);
@@ -52,6 +98,7 @@ int run(SourcedMesh& sourced)
     if (!scene.is_surface()) {
         fmt::print("  inverted cells  {}\n", traits.inverted_cells);
         fmt::print("  folded faces    {}\n", traits.folded_faces);
+        fmt::print("  crowded faces   {}\n", traits.crowded_faces);
         fmt::print("  convex          {}\n", yes_or_no(traits.convex));
         fmt::print("  Delaunay        {}\n", yes_or_no(traits.delaunay));
         fmt::print("  face to face    {}\n", yes_or_no(traits.face_to_face));
@@ -70,12 +117,13 @@ int run(SourcedMesh& sourced)
     for (const StructureRecord& record : scene.derived())
         fmt::print("  {:<15} {:.3f} s, {:.1f} MiB\n", name(record.structure), record.seconds,
                    static_cast<double>(record.bytes) / (1 << 20));
+    tell_faults(stdout, sourced, scene);
     return exit_success;
 }
 
 int run(const SceneSource& source)
 {
-    SourcedMesh sourced = load(source);
+    SourcedMesh sourced = load(source, true);
     return with_names_of(sourced, [&] { return run(sourced); });
 }
 

@@ -1,5 +1,6 @@
 #include "apps/commands.h"
 #include "apps/image_size.h"
+#include "apps/missing_scalars.h"
 #include "apps/number_check.h"
 #include "apps/output_file.h"
 #include "apps/scene_source.h"
@@ -10,6 +11,7 @@
 #include "projection/renderer.h"
 #include "projection/transfer_function_file.h"
 #include "scene/error.h"
+#include "scene/scalar_interval.h"
 #include "sorting/registry.h"
 
 #include <algorithm>
@@ -17,7 +19,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace visorder::apps {
 
@@ -34,6 +39,7 @@ struct Arguments {
     std::string integrator = name(RenderOptions{}.integrator);
     std::string transfer = "cool-warm";
     std::string map;
+    std::string nan = "drop";
     double unit_length = 0;
     std::vector<double> camera;
     double view_angle = 30;
@@ -75,7 +81,16 @@ View chosen_view(const Arguments& arguments, const Scene& scene)
     return view_of(camera, size);
 }
 
-TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
+// A function of a file's scalars, over the scalars that the mesh has for them.
+TransferFunction stored(const TransferFunction& of_values, const ScalarMap& map)
+{
+    std::vector<OpticalPoint> points(of_values.points().begin(), of_values.points().end());
+    for (OpticalPoint& point : points)
+        point.scalar = map.stored(point.scalar);
+    return TransferFunction(std::move(points));
+}
+
+TransferFunction chosen_function(const Arguments& arguments, const Scene& scene, const ScalarMap& map)
 {
     const auto names = transfer_function_names();
     const double unit_length = arguments.unit_length != 0 ? arguments.unit_length : scene.diameter() / 10;
@@ -83,7 +98,10 @@ TransferFunction chosen_function(const Arguments& arguments, const Scene& scene)
         if (!std::filesystem::exists(arguments.transfer))
             throw InputError(fmt::format("{}: neither a file nor a transfer function; there are: {}",
                                          arguments.transfer, fmt::join(names, ", ")));
-        return read_transfer_function(arguments.transfer, {unit_length, arguments.map, scalar_interval(scene.mesh())});
+        std::optional<ScalarInterval> scalars = scalar_interval(scene.mesh());
+        if (scalars)
+            scalars = {map.value(scalars->lowest), map.value(scalars->highest)};
+        return stored(read_transfer_function(arguments.transfer, {unit_length, arguments.map, scalars}), map);
     }
     return named_transfer_function(arguments.transfer, scene, unit_length);
 }
@@ -98,9 +116,10 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     options.tables = {arguments.table_scalars, arguments.table_lengths, !arguments.even_lengths};
     const GlPlatform platform = gl_platform(arguments.sorter_options.gl);
 
+    const std::size_t dropped = settle_missing_scalars(sourced, arguments.nan);
     const Scene scene(std::move(sourced.mesh));
     const View view = chosen_view(arguments, scene);
-    const TransferFunction function = chosen_function(arguments, scene);
+    const TransferFunction function = chosen_function(arguments, scene, sourced.scalar_map);
     const Context context(platform);
     ProjectionRenderer renderer(context, scene, function, options);
     const auto sorter = make_sorter(arguments.sorter, scene, arguments.sorter_options);
@@ -115,6 +134,11 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
                arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
                taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
                context.renderer(), named_sorter(arguments.sorter, scene), describe(sorter->guarantee(), scene));
+    if (dropped > 0)
+        fmt::print(message_stream({arguments.output}),
+                   "{}: {} of {} cells are left out of the picture, for a scalar of theirs is missing (--nan)\n",
+                   arguments.output, dropped, scene.cell_count() + dropped);
+    tell_faults(message_stream({arguments.output}), sourced, scene);
     return exit_success;
 }
 
@@ -159,6 +183,11 @@ void add_render_command(CLI::App& app, Command& chosen)
                      fmt::format("Transfer function: a JSON file, visorder's or ParaView's, or one of {}",
                                  fmt::join(transfer_function_names(), ", ")))
         ->capture_default_str();
+    command
+        ->add_option("--nan", arguments->nan,
+                     "Cells with a scalar that is missing: drop them, take the lowest scalar, or refuse")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"drop", "lowest", "refuse"}));
     command->add_option("--map", arguments->map, "The colour map to take from a ParaView file of several");
     command
         ->add_option("--unit-length", arguments->unit_length,

@@ -1,6 +1,7 @@
 #include "apps/scene_source.h"
 
 #include "bench/generated_scene.h"
+#include "files/crowded_faces.h"
 #include "files/read_mesh.h"
 #include "scene/error.h"
 #include "scene/subdivision.h"
@@ -27,7 +28,7 @@ std::shared_ptr<SceneSource> add_scene_source(CLI::App& command)
     return source;
 }
 
-SourcedMesh load(const SceneSource& source)
+SourcedMesh load(const SceneSource& source, bool list_arrays)
 {
     if (source.file.empty() && source.generated.empty())
         throw InputError("no mesh given: name a file, or a generated scene by --scene");
@@ -43,7 +44,8 @@ SourcedMesh load(const SceneSource& source)
         file = read_mesh(source.file, {.scalar = source.scalar,
                                        .weld = source.weld.given,
                                        .weld_tolerance = source.weld.tolerance,
-                                       .time = source.time});
+                                       .time = source.time,
+                                       .list_arrays = list_arrays});
     }
     result.source_cells = file.mesh.cell_count();
     if (source.whole) {
@@ -55,8 +57,16 @@ SourcedMesh load(const SceneSource& source)
         result.mesh = std::move(subdivision.mesh);
     }
     result.scalar = std::move(file.scalar);
+    result.scalar_map = file.scalar_map;
+    result.arrays = std::move(file.arrays);
     result.notes = std::move(file.notes);
     return result;
+}
+
+void tell_faults(std::FILE* out, const SourcedMesh& sourced, const Scene& scene)
+{
+    if (const std::string note = crowded_faces_note(scene, sourced.cells); !note.empty())
+        fmt::print(out, "{}: {}\n", sourced.name, note);
 }
 
 int with_names_of(const SourcedMesh& sourced, const std::function<int()>& body)

@@ -3,8 +3,10 @@
 #include "apps/weld_option.h"
 #include "files/cell_numbers.h"
 #include "scene/mesh.h"
+#include "scene/scene.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
@@ -25,10 +27,12 @@ struct SceneSource {
 /// What it names.
 struct SourcedMesh {
     std::string name;
-    Mesh mesh;                    ///< tetrahedra, unless whole zoo cells were asked for
-    CellNumbers cells{{}, {}};    ///< what they are called
-    std::size_t source_cells = 0; ///< before subdivision
-    std::string scalar;           ///< the array that was taken
+    Mesh mesh;                        ///< tetrahedra, unless whole zoo cells were asked for
+    CellNumbers cells{{}, {}};        ///< what they are called
+    std::size_t source_cells = 0;     ///< before subdivision
+    std::string scalar;               ///< the array that was taken
+    ScalarMap scalar_map;             ///< from the mesh's scalars to the array's
+    std::vector<ArraySummary> arrays; ///< of the file, if they were asked for
     std::vector<std::string> notes;
 };
 
@@ -36,7 +40,10 @@ struct SourcedMesh {
 std::shared_ptr<SceneSource> add_scene_source(CLI::App& command);
 
 /// Reads or makes the mesh. Throws InputError.
-SourcedMesh load(const SceneSource& source);
+SourcedMesh load(const SceneSource& source, bool list_arrays = false);
+
+/// Says, in one line of `out`, what the scene of the mesh has that no mesh should.
+void tell_faults(std::FILE* out, const SourcedMesh& sourced, const Scene& scene);
 
 /// Runs what a command does with the mesh; what it throws of a cell names the source, and the cell as the source does.
 int with_names_of(const SourcedMesh& sourced, const std::function<int()>& body);

@@ -42,6 +42,7 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
                    sourced.source_cells);
     else if (!sourced.cells.whole())
         fmt::print(out, "cells are parts of the file's cells; --map FILE tells of which each is part\n");
+    tell_faults(out, sourced, scene);
     return exit_success;
 }
 

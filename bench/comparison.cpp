@@ -6,6 +6,7 @@
 #include "checking/order_checker.h"
 #include "checking/ray_audit.h"
 #include "files/cell_numbers.h"
+#include "files/crowded_faces.h"
 #include "files/read_mesh.h"
 #include "graphics/graphics_error.h"
 #include "scene/error.h"
@@ -290,6 +291,8 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
     description.convex = scene.traits().convex;
     description.delaunay = scene.traits().delaunay;
 
+    if (const std::string note = crowded_faces_note(scene, cells); !note.empty())
+        description.notes.push_back(note);
     const std::unique_ptr<Frames> frames = make_frames(scene, options, description);
     if (frames != nullptr)
         result.gl_renderer = frames->gl_renderer();

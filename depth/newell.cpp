@@ -1,7 +1,5 @@
 #include "depth/newell.h"
 
-#include "scene/error.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -39,11 +37,7 @@ Guarantee Newell::guarantee() const
 {
     if (!obstruction_.planar_faces())
         return Guarantee::approximate;
-    try {
-        return scene_.overlapping_cells().empty() ? Guarantee::exact : Guarantee::approximate;
-    } catch (const InputError&) {
-        return Guarantee::approximate; // three cells at one face: two of them overlap
-    }
+    return scene_.overlapping_cells().empty() ? Guarantee::exact : Guarantee::approximate;
 }
 
 void Newell::sort(const View& view, Order& order)

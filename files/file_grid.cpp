@@ -90,6 +90,9 @@ public:
     MeshFile run()
     {
         const FileArray* array = choose_array(grid_, options_.scalar);
+        if (options_.list_arrays)
+            for (const FileArray& listed : grid_.arrays)
+                result_.arrays.push_back(summary_of(listed));
         if (grid_.cells.empty())
             fail("there are no cells in it");
         if (std::max(grid_.points.size(), grid_.cells.size()) > std::numeric_limits<PointId>::max())
@@ -319,30 +322,38 @@ private:
         if (values.size() != wanted)
             fail(fmt::format("scalar \"{}\" has {} values for {} {}", array.name, values.size(), wanted,
                              array.on_cells ? "cells" : "points"));
-        mesh().scalars.assign(mesh().points.size(), std::numeric_limits<float>::quiet_NaN());
-        if (array.on_cells) {
-            average_to_points(values);
-            return;
-        }
+        std::vector<double> of_points(mesh().points.size(), missing);
+        if (array.on_cells)
+            average_to_points(values, of_points);
+        else
+            take_of_points(values, of_points);
+        result_.scalar_map = scalar_map_of(of_points);
+        mesh().scalars.resize(of_points.size());
+        std::transform(of_points.begin(), of_points.end(), mesh().scalars.begin(),
+                       [&](double value) { return static_cast<float>(result_.scalar_map.stored(value)); });
+    }
+
+    void take_of_points(const std::vector<double>& values, std::vector<double>& of_points) const
+    {
         // Where points of several pieces became one, the first that has a value gives it.
         for (std::size_t i = points_.number.size(); i-- > 0;)
             if (!std::isnan(values[i]) || points_.kept[points_.number[i]] == i)
-                if (float& scalar = mesh().scalars[points_.number[i]]; !std::isnan(values[i]) || std::isnan(scalar))
-                    scalar = static_cast<float>(values[i]);
+                if (double& scalar = of_points[points_.number[i]]; !std::isnan(values[i]) || std::isnan(scalar))
+                    scalar = values[i];
     }
 
     /// A point's scalar is the mean over the file's cells at it that have a value.
-    void average_to_points(const std::vector<double>& values)
+    void average_to_points(const std::vector<double>& values, std::vector<double>& of_points) const
     {
-        std::vector<double> sums(mesh().points.size());
-        std::vector<std::uint32_t> counts(mesh().points.size());
+        std::vector<double> sums(result_.mesh.points.size());
+        std::vector<std::uint32_t> counts(result_.mesh.points.size());
         constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
-        std::vector<std::uint64_t> last(mesh().points.size(), none); // file cell that was counted last
-        for (CellId cell = 0; cell < mesh().cell_count(); ++cell) {
+        std::vector<std::uint64_t> last(result_.mesh.points.size(), none); // file cell that was counted last
+        for (CellId cell = 0; cell < result_.mesh.cell_count(); ++cell) {
             const std::uint64_t file_cell = result_.file_cells[cell];
             if (std::isnan(values[file_cell]))
                 continue;
-            for (const PointId point : mesh().cell(cell))
+            for (const PointId point : result_.mesh.cell(cell))
                 if (last[point] != file_cell) {
                     last[point] = file_cell;
                     sums[point] += values[file_cell];
@@ -351,7 +362,7 @@ private:
         }
         for (std::size_t i = 0; i < sums.size(); ++i)
             if (counts[i] > 0)
-                mesh().scalars[i] = static_cast<float>(sums[i] / counts[i]);
+                of_points[i] = sums[i] / counts[i];
     }
 
     void tell(const FileArray* array)

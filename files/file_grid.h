@@ -41,8 +41,10 @@ struct FileArray {
     int components;
     bool holds_ids;
     /// The numbers, or magnitudes where there are several components; one for each point or cell that the file lists,
-    /// NaN where it has none. Called at most once, for the array that is taken.
+    /// NaN where it has none.
     std::function<std::vector<double>()> values;
+    bool active = false;   ///< the file says that it is the one to look at
+    std::string type = ""; ///< of its numbers
 };
 
 /// What a file lists, before a mesh is made of it.

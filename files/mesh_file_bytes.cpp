@@ -18,8 +18,8 @@ constexpr std::uint64_t layout =
 template <class Archive>
 void transfer(Archive& archive, ReadOptions& options)
 {
-    auto& [scalar, weld, weld_tolerance, time, isolated] = options;
-    archive(scalar, weld, weld_tolerance, time, isolated);
+    auto& [scalar, weld, weld_tolerance, time, isolated, list_arrays] = options;
+    archive(scalar, weld, weld_tolerance, time, isolated, list_arrays);
 }
 
 template <class Archive>
@@ -36,6 +36,19 @@ void transfer(Archive& archive, MeshBlock& block)
 }
 
 template <class Archive>
+void transfer(Archive& archive, ScalarMap& map)
+{
+    archive(map.offset, map.scale);
+}
+
+template <class Archive>
+void transfer(Archive& archive, ArraySummary& array)
+{
+    archive(array.name, array.type, array.on_cells, array.components, array.holds_ids, array.finite, array.missing,
+            array.lowest, array.highest);
+}
+
+template <class Archive>
 void transfer(Archive& archive, Mesh& mesh)
 {
     auto& [points, shapes, offsets, vertices, scalars] = mesh;
@@ -45,8 +58,8 @@ void transfer(Archive& archive, Mesh& mesh)
 template <class Archive>
 void transfer(Archive& archive, MeshFile& file)
 {
-    auto& [mesh, scalar, notes, file_cells, blocks] = file;
-    archive(mesh, scalar, notes, file_cells, blocks);
+    auto& [mesh, scalar, scalar_map, notes, file_cells, blocks, arrays] = file;
+    archive(mesh, scalar, scalar_map, notes, file_cells, blocks, arrays);
 }
 
 template <class T>

@@ -196,7 +196,7 @@ MeshFile finished(const std::filesystem::path& file, FileGrid&& grid, const Read
     const auto not_finite = std::count_if(result.mesh.scalars.begin(), result.mesh.scalars.end(),
                                           [](float scalar) { return !std::isfinite(scalar); });
     if (not_finite > 0)
-        result.notes.push_back(fmt::format("{} scalars are not finite", not_finite));
+        result.notes.push_back(fmt::format("{} scalars are missing: they are not finite", not_finite));
     check(file, result);
     return result;
 }

@@ -1,13 +1,11 @@
 #include "scene/adjacency.h"
 
-#include "scene/error.h"
 #include "scene/face_loop.h"
 #include "scene/scene.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <fmt/format.h>
 #include <mutex>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -90,27 +88,40 @@ Groups group_half_faces(const Mesh& mesh, std::uint32_t row_length, Key&& key)
     return groups;
 }
 
-class SharedByThree {
+// Collects the half faces of faces that more than two cells share, three at a time, from several threads.
+class CrowdedFaces {
 public:
-    void found(CellId a, CellId b, CellId c)
+    explicit CrowdedFaces(std::uint32_t row_length) : row_length_(row_length) {}
+
+    void found(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     {
-        std::array<CellId, 3> cells{a, b, c};
-        std::sort(cells.begin(), cells.end());
         const std::lock_guard lock(mutex_);
-        if (!lowest_ || cells < *lowest_)
-            lowest_ = cells;
+        triples_.push_back({a, b, c}); // the first two are the same in all triples of one face
     }
 
-    void throw_if_any() const
+    /// The cells of each face, ascending, whatever the threads did.
+    std::vector<std::vector<CellId>> cells_of_faces()
     {
-        if (lowest_)
-            throw InputError(fmt::format("cells {}, {} and {} share one face; at most two can", (*lowest_)[0],
-                                         (*lowest_)[1], (*lowest_)[2]));
+        std::sort(triples_.begin(), triples_.end());
+        std::vector<std::vector<CellId>> faces;
+        for (std::size_t i = 0; i < triples_.size(); ++i) {
+            const auto& [a, b, c] = triples_[i];
+            if (i == 0 || triples_[i - 1][0] != a || triples_[i - 1][1] != b)
+                faces.push_back({a / row_length_, b / row_length_});
+            faces.back().push_back(c / row_length_);
+        }
+        for (std::vector<CellId>& cells : faces) {
+            std::sort(cells.begin(), cells.end());
+            cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+        }
+        std::sort(faces.begin(), faces.end());
+        return faces;
     }
 
 private:
+    std::uint32_t row_length_;
     std::mutex mutex_;
-    std::optional<std::array<CellId, 3>> lowest_;
+    std::vector<std::array<std::uint32_t, 3>> triples_;
 };
 
 struct Entry {
@@ -118,8 +129,8 @@ struct Entry {
     std::uint32_t half_face;
 };
 
-// The half faces of one group; `join` gets the two of every face that two share, `shared_by_three` three of one that
-// more do.
+// The half faces of one group; `join` gets the two of every face that two share, and may get two of one that more do;
+// `shared_by_three` gets of that the same first two with each of the others.
 class Matching {
 public:
     void clear()
@@ -176,7 +187,8 @@ private:
             if (end - i == 2)
                 join(entries_[i].half_face, entries_[i + 1].half_face);
             else if (end - i > 2)
-                shared_by_three(entries_[i].half_face, entries_[i + 1].half_face, entries_[i + 2].half_face);
+                for (std::size_t third = i + 2; third < end; ++third)
+                    shared_by_three(entries_[i].half_face, entries_[i + 1].half_face, entries_[third].half_face);
             i = end;
         }
     }
@@ -200,9 +212,8 @@ Adjacency adjacency_by(const Scene& scene, std::uint32_t row_length, Key&& key)
     });
 
     const Groups groups = group_half_faces(mesh, row_length, key);
-    SharedByThree shared;
-    const auto caller = [&](std::uint32_t half_face) { return scene.caller_cells()[half_face / row_length]; };
-    // An edge of three or more triangles joins none; its first two were joined when the third had not been seen.
+    CrowdedFaces crowded(row_length);
+    // What three or more share joins none; its first two may have been joined when the third had not been seen.
     const auto join_none = [&](auto... half_faces) {
         ((adjacency.neighbour[half_faces] = half_faces / row_length), ...);
     };
@@ -220,14 +231,13 @@ Adjacency adjacency_by(const Scene& scene, std::uint32_t row_length, Key&& key)
                     adjacency.neighbour[b] = a / row_length;
                 },
                 [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                    if (scene.is_surface())
-                        join_none(a, b, c);
-                    else
-                        shared.found(caller(a), caller(b), caller(c));
+                    join_none(a, b, c);
+                    if (!scene.is_surface())
+                        crowded.found(a, b, c);
                 });
         }
     });
-    shared.throw_if_any();
+    adjacency.crowded = crowded.cells_of_faces();
 
     oneapi::tbb::parallel_for(Range(0, cells, 4096), [&](const Range& range) {
         for (CellId cell = range.begin(); cell < range.end(); ++cell) {

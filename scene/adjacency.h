@@ -41,6 +41,9 @@ struct Adjacency {
     /// Faces that two solid cells on the same side of them share, from both cells, ascending by cell and face: the
     /// cells overlap there. They join nothing, and are boundary faces.
     std::vector<CellFace> folded;
+    /// For each face that more than two solid cells share, its cells (each once, ascending), ascending. Two of them
+    /// overlap there, or are the same cell twice. Such a face joins nothing, and is a boundary face of each.
+    std::vector<std::vector<CellId>> crowded;
 
     std::span<const CellId> row(CellId cell) const
     {
@@ -55,7 +58,6 @@ struct Adjacency {
     }
 };
 
-/// Throws InputError, naming the cells (in the caller's numbering), for a face that three solids share.
 Adjacency derive_adjacency(const Scene& scene);
 
 /// The face of the neighbour across interior face `face` of `cell` that is this face, as an index into its own faces.

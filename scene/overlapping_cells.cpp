@@ -21,7 +21,7 @@
 // belongs to, just inside. Either the other cell goes on into a neighbour all the way, and then the owner of every face
 // of the piece overlaps some cell; or it ends at a boundary face on the way, and there two owners overlap. So a scene
 // without overlaps is one with
-//   no folded interior face,
+//   no folded interior face, and none that more than two cells share,
 //   no two overlapping owners of boundary faces, and
 //   of each piece of the boundary one face whose owner overlaps no cell.
 // For this, flat cells are left out, and the faces of their solid neighbours are boundary faces; each of these is taken
@@ -133,7 +133,7 @@ public:
 
     std::vector<std::pair<CellId, CellId>> run() const
     {
-        if (adjacency_.folded.empty() && !overlap_at_boundary())
+        if (adjacency_.folded.empty() && adjacency_.crowded.empty() && !overlap_at_boundary())
             return {};
         return all_pairs();
     }

@@ -1,6 +1,7 @@
 #include "scene/scalar_interval.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace visorder {
 
@@ -8,8 +9,15 @@ std::optional<ScalarInterval> scalar_interval(const Mesh& mesh)
 {
     if (mesh.scalars.empty())
         return std::nullopt;
-    const auto [lowest, highest] = std::minmax_element(mesh.scalars.begin(), mesh.scalars.end());
-    return ScalarInterval{*lowest, *highest};
+    std::optional<ScalarInterval> interval;
+    for (const float scalar : mesh.scalars)
+        if (std::isfinite(scalar)) {
+            if (!interval)
+                interval = {scalar, scalar};
+            interval->lowest = std::min<double>(interval->lowest, scalar);
+            interval->highest = std::max<double>(interval->highest, scalar);
+        }
+    return interval ? interval : ScalarInterval{0, 0};
 }
 
 } // namespace visorder

@@ -26,7 +26,7 @@ std::size_t bytes(const Orientations& x)
 }
 std::size_t bytes(const Adjacency& x)
 {
-    return size_of(x.neighbour) + size_of(x.interior) + size_of(x.folded);
+    return size_of(x.neighbour) + size_of(x.interior) + size_of(x.folded) + size_of(x.crowded);
 }
 std::size_t bytes(const Boundary& x)
 {

@@ -76,7 +76,8 @@ public:
     // from that test, every vertex is held against every face.
     bool holds() const
     {
-        if (!scene_.adjacency().folded.empty() || scene_.boundary().component_count != 1)
+        if (!scene_.adjacency().folded.empty() || !scene_.adjacency().crowded.empty() ||
+            scene_.boundary().component_count != 1)
             return false;
         return (all_have_planes_ ? convex_at_every_edge() : behind_every_face()) && scene_.overlapping_cells().empty();
     }
@@ -158,7 +159,7 @@ private:
 // Cells that touch elsewhere than in whole faces have boundary faces in one plane with area in common.
 bool meets_face_to_face(const Scene& scene)
 {
-    if (!scene.adjacency().folded.empty())
+    if (!scene.adjacency().folded.empty() || !scene.adjacency().crowded.empty())
         return false;
     const Mesh& mesh = scene.mesh();
     const auto& faces = scene.boundary().faces;
@@ -220,7 +221,8 @@ public:
     bool holds(bool convex) const
     {
         const Orientations& orientations = scene_.orientations();
-        if (!scene_.is_tetrahedral() || orientations.flat != 0 || !scene_.adjacency().folded.empty())
+        if (!scene_.is_tetrahedral() || orientations.flat != 0 || !scene_.adjacency().folded.empty() ||
+            !scene_.adjacency().crowded.empty())
             return false;
         if (!all_of_range(scene_.cell_count(),
                           [&](std::size_t cell) { return across_faces(static_cast<CellId>(cell)); }))
@@ -296,6 +298,7 @@ Traits derive_traits(const Scene& scene)
         return traits;
     traits.inverted_cells = orientations.inverted;
     traits.folded_faces = scene.adjacency().folded.size() / 2;
+    traits.crowded_faces = scene.adjacency().crowded.size();
     traits.planar_faces = has_planar_faces(scene);
     traits.face_to_face = traits.planar_faces && meets_face_to_face(scene);
     traits.convex = traits.planar_faces && ConvexityTest(scene).holds();

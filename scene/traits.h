@@ -16,6 +16,7 @@ struct Traits {
     std::size_t flat_cells; ///< cells without volume
     std::size_t inverted_cells; ///< cells whose vertices stand in the reverse of VTK's order
     std::size_t folded_faces;   ///< faces that two cells on the same side of them share, which overlap there
+    std::size_t crowded_faces;  ///< faces that more than two cells share, of which two overlap or are one cell twice
 };
 
 Traits derive_traits(const Scene& scene);

@@ -1,5 +1,7 @@
 #include "vtk/array_union.h"
 
+#include "files/array_choice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,11 +81,14 @@ std::vector<FileArray> union_of_arrays(const VtkFile& file, bool on_cells)
             if (std::any_of(found.begin(), found.end(), [&](const FileArray& other) { return other.name == name; }))
                 continue;
             const int role = data.IsArrayAnAttribute(i);
+            const bool is_whole = array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
             const bool holds_ids = role == vtkDataSetAttributes::GLOBALIDS ||
-                                   role == vtkDataSetAttributes::PEDIGREEIDS || vtkIdTypeArray::SafeDownCast(array);
+                                   role == vtkDataSetAttributes::PEDIGREEIDS || vtkIdTypeArray::SafeDownCast(array) ||
+                                   (is_whole && is_name_of_ids(name));
             const int components = array->GetNumberOfComponents();
             found.push_back({name, on_cells, components, holds_ids,
-                             [=] { return values_of(parts, on_cells, shared, name, components); }});
+                             [=] { return values_of(parts, on_cells, shared, name, components); },
+                             role == vtkDataSetAttributes::SCALARS, array->GetDataTypeAsString()});
         }
     }
     return found;

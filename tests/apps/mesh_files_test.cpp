@@ -137,6 +137,67 @@ TEST(ToolOnMeshFiles, TrianglesOfPolygonsHaveAMapToThem)
     EXPECT_EQ(sorted_numbers(order), (std::vector<std::uint64_t>{0, 1, 2}));
 }
 
+/// One tetrahedron with these point data.
+std::string tetrahedron_with(const std::string& point_data)
+{
+    return "# vtk DataFile Version 3.0\nwith data\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+           "POINTS 4 double\n500000.125 0 0  500000.25 0 0  500000.125 1 0  500000.125 0 1\n"
+           "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\n" +
+           point_data;
+}
+
+TEST(ToolOnMeshFiles, TellsBoundsAndRangesApart)
+{
+    const TemporaryFolder folder;
+    const std::string mesh =
+        folder
+            .write("mesh.vtk", tetrahedron_with("SCALARS s double 1\nLOOKUP_TABLE default\n"
+                                                "1000000000 1000000000.25 1000000000.5 1000000001\n"))
+            .string();
+    expect_says(run("inspect " + mesh), 0,
+                {"500000.125,0,0 to 500000.25,1,1", "s from 1000000000 to 1000000001",
+                 "array           s: of points, double, 1 component, from 1000000000 to 1000000001"});
+}
+
+TEST(ToolOnMeshFiles, CountsNotANumberAsMissing)
+{
+    const TemporaryFolder folder;
+    const std::string mesh =
+        folder.write("mesh.vtk", tetrahedron_with("SCALARS s double 1\nLOOKUP_TABLE default\n2 nan 3 7\n")).string();
+    const std::string out = (folder / "out.png").string();
+    expect_says(run("inspect " + mesh), 0, {"1 scalars are missing", "s from 2 to 7", "from 2 to 7, 1 missing"});
+    expect_one_line_and_code_2("render " + mesh + " --direction 1,1,1 --size 8x8 -o " + out, "each of the 1 cells");
+    EXPECT_EQ(run("render " + mesh + " --nan lowest --direction 1,1,1 --size 8x8 -o " + out).code, 0);
+    expect_one_line_and_code_2("render " + mesh + " --nan refuse --direction 1,1,1 --size 8x8 -o " + out, "--nan");
+    expect_says(run("sort " + mesh + " --direction 1,1,1 -o " + (folder / "order.txt").string()), 0, {"1 cells"});
+}
+
+TEST(ToolOnMeshFiles, SortsAroundThreeCellsAtOneFace)
+{
+    const TemporaryFolder folder;
+    // A vertex first, so that the file's numbers are not the mesh's.
+    const std::string mesh =
+        folder
+            .write("mesh.vtk", "# vtk DataFile Version 3.0\nthree\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                               "POINTS 6 double\n0 0 0  6 0 0  0 6 0  1 1 5  1 1 -5  2 1 -9\n"
+                               "CELLS 4 17\n1 0\n4 0 1 2 3\n4 0 1 2 4\n4 0 1 2 5\nCELL_TYPES 4\n1\n10\n10\n10\n")
+            .string();
+    const std::string order = (folder / "order.txt").string();
+    const char* said = "mesh.vtk: cell 1, cell 2 and cell 3 share one face";
+    expect_says(run("inspect " + mesh), 0, {said, "crowded faces   1"});
+    for (const char* sorter : {"auto", "bsp-xmpvo", "xmpvo-exact", "newell", "xmpvo", "mpvo", "mpvo-nc", "centroid"}) {
+        SCOPED_TRACE(sorter);
+        expect_says(run("sort " + mesh + " --direction 0,0,1 --sorter " + sorter + " -o " + order), 0, {said});
+        EXPECT_EQ(sorted_numbers(order), (std::vector<std::uint64_t>{1, 2, 3}));
+    }
+    for (const char* sorter : {"auto", "bsp-xmpvo", "xmpvo-exact", "newell"}) {
+        SCOPED_TRACE(sorter);
+        ASSERT_EQ(run("sort " + mesh + " --direction 0,0,1 --sorter " + sorter + " -o " + order).code, 0);
+        EXPECT_TRUE(content_of(order).ends_with("1\n")) << content_of(order);
+        expect_says(run("check " + mesh + " " + order + " --direction 0,0,1"), 0, {"0 of 2 relations violated", said});
+    }
+}
+
 } // namespace
 } // namespace visorder::tests
 

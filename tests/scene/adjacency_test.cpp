@@ -73,19 +73,63 @@ TEST(Adjacency, FindsManyFacesAtOnePoint)
     EXPECT_EQ(pairs_of(Scene(mesh)), pairs_by_brute_force(mesh));
 }
 
-TEST(Adjacency, RefusesAFaceOfThreeCellsAndNamesThem)
+std::set<std::set<CellId>> crowded_of(const Scene& scene)
+{
+    std::set<std::set<CellId>> crowded;
+    for (const std::vector<CellId>& cells : scene.adjacency().crowded) {
+        std::set<CellId> callers;
+        for (const CellId cell : cells)
+            callers.insert(scene.caller_cells()[cell]);
+        EXPECT_TRUE(crowded.insert(callers).second) << "a face twice";
+    }
+    return crowded;
+}
+
+TEST(Adjacency, AFaceOfThreeCellsJoinsNone)
 {
     Mesh mesh = two_tetrahedra();
     mesh.points.emplace_back(2, 2, 2);
     add_tetrahedron(mesh, 1, 2, 3, 5);
+    mesh.points.emplace_back(0, 0, -1);
+    add_tetrahedron(mesh, 0, 2, 1, 6); // meets the first at another face
     const Scene scene(std::move(mesh));
-    try {
-        scene.adjacency();
-        FAIL() << "no exception";
-    } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "cells 0, 1 and 2 share one face; at most two can");
+    EXPECT_EQ(crowded_of(scene), (std::set<std::set<CellId>>{{0, 1, 2}}));
+    EXPECT_EQ(scene.traits().crowded_faces, 1u);
+    EXPECT_FALSE(scene.traits().convex);
+    EXPECT_FALSE(scene.traits().face_to_face);
+    EXPECT_FALSE(scene.traits().delaunay);
+    EXPECT_EQ(pairs_of(scene), (std::set<std::pair<CellId, CellId>>{{0, 3}}));
+    EXPECT_EQ(scene.boundary().faces.size(), 14u) << "the face counts once for each of its cells";
+}
+
+TEST(Adjacency, ACellListedTwiceJoinsNothing)
+{
+    Mesh mesh = two_tetrahedra();
+    add_tetrahedron(mesh, 0, 1, 2, 3);
+    const Scene scene(std::move(mesh));
+    EXPECT_EQ(crowded_of(scene), (std::set<std::set<CellId>>{{0, 1, 2}}));
+    EXPECT_EQ(scene.adjacency().folded.size(), 6u) << "its other three faces, of two cells on one side";
+    EXPECT_TRUE(pairs_of(scene).empty());
+    EXPECT_EQ(scene.overlapping_cells().size(), 1u);
+}
+
+// More half faces at one vertex than are compared pair by pair, and more than three at a face.
+TEST(Adjacency, FindsFacesOfManyCells)
+{
+    Mesh mesh;
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    std::set<CellId> all;
+    for (CellId cell = 0; cell < 40; ++cell) {
+        mesh.points.emplace_back(cell, 1, cell % 2 == 0 ? 1 + cell : -1.0 - cell);
+        add_tetrahedron(mesh, 0, 1, 2, 3 + cell);
+        all.insert(cell);
     }
-    EXPECT_THROW(scene.adjacency(), InputError) << "asked again";
+    EXPECT_EQ(crowded_of(Scene(mesh)), (std::set<std::set<CellId>>{all}));
+    EXPECT_TRUE(pairs_of(Scene(mesh)).empty());
+    mesh.shapes.resize(5);
+    mesh.offsets.resize(6);
+    mesh.vertices.resize(20);
+    EXPECT_EQ(crowded_of(Scene(mesh)), (std::set<std::set<CellId>>{{0, 1, 2, 3, 4}}));
 }
 
 TEST(Adjacency, PassesThroughCellsWithRepeatedVertices)
