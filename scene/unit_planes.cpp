@@ -29,8 +29,8 @@ UnitFrame unit_frame(const Box& bounds)
 {
     const glm::dvec3 half = bounds.max * 0.5 - bounds.min * 0.5;
     const double radius = std::max({half.x, half.y, half.z});
-    // The rounded origin may lie off the middle by an ulp; one power of two more keeps unit coordinates in [-1, 1]. Of a
-    // scene so small that the scale would overflow they are smaller.
+    // The rounded origin may lie off the middle by an ulp; one power of two more keeps unit coordinates in [-1, 1]. Of
+    // a scene so small that the scale would overflow they are smaller.
     constexpr int greatest = std::numeric_limits<double>::max_exponent - 1;
     const double scale = radius > 0 ? std::ldexp(1.0, std::min(-std::ilogb(radius) - 1, greatest)) : 1.0;
     return {bounds.middle(), std::isnormal(scale) ? scale : 1.0};

@@ -18,6 +18,7 @@
 
 namespace visorder::tests {
 
+using namespace bench;
 using namespace scenes;
 namespace {
 
