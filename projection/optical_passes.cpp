@@ -35,7 +35,7 @@ OpticalPass pass_through(const Piece& piece, double reference)
 }
 
 // Of an optical depth, by bounds that are ten times what comes of it.
-constexpr double most_error = 2e-6;
+constexpr double most_error = 5e-7;
 
 // Few rays lie in what takes a smaller part of a cell's scalars: it is as good as a jump.
 constexpr double narrow = 0x1p-10;

@@ -30,7 +30,7 @@ struct CellWays {
 
 /// Fragments know in single precision where on a way they are. Where more than this optical depth may lie along it,
 /// that is not enough.
-constexpr double most_depth_in_single_precision = 4;
+constexpr double most_depth_in_single_precision = 16;
 
 /// Replaces `passes` by those of a cell, farthest first along each ray. Parts without extinction have none. False, and
 /// no passes, if the cell is too dense for single precision.

@@ -155,15 +155,19 @@ TEST(ToolOnMeshFiles, TellsBoundsAndRangesApart)
                                                 "1000000000 1000000000.25 1000000000.5 1000000001\n"))
             .string();
     expect_says(run("inspect " + mesh), 0,
-                {"500000.125,0,0 to 500000.25,1,1", "s from 1000000000 to 1000000001",
-                 "array           s: of points, double, 1 component, from 1000000000 to 1000000001"});
+                {"500000.125,0,0 to 500000.25,1,1", "s from 1e+09 to 1000000001",
+                 "array           s: of points, double, 1 component, from 1e+09 to 1000000001"});
 }
 
 TEST(ToolOnMeshFiles, CountsNotANumberAsMissing)
 {
     const TemporaryFolder folder;
     const std::string mesh =
-        folder.write("mesh.vtk", tetrahedron_with("SCALARS s double 1\nLOOKUP_TABLE default\n2 nan 3 7\n")).string();
+        folder
+            .write("mesh.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+                               "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n"
+                               "$NodeData\n1\n\"s\"\n1\n0.0\n3\n0\n1\n3\n1 2\n3 3\n4 7\n$EndNodeData\n")
+            .string();
     const std::string out = (folder / "out.png").string();
     expect_says(run("inspect " + mesh), 0, {"1 scalars are missing", "s from 2 to 7", "from 2 to 7, 1 missing"});
     expect_one_line_and_code_2("render " + mesh + " --direction 1,1,1 --size 8x8 -o " + out, "each of the 1 cells");

@@ -152,7 +152,7 @@ std::filesystem::path write_two_blocks(const std::string& name, int format = 0)
 TEST(Exodus, SharesPointsBetweenBlocks)
 {
     for (const int format : {0, NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4}) {
-        const MeshFile file = read_mesh(write_two_blocks("blocks.exo", format));
+        const MeshFile file = read_mesh(write_two_blocks("blocks.exo", format), {.scalar = "Temp"});
         EXPECT_THAT(file.mesh.points, SizeIs(12));
         EXPECT_THAT(file.mesh.shapes, ElementsAre(CellShape::hexahedron, CellShape::hexahedron));
         EXPECT_THAT(file.mesh.cell(0), ElementsAre(0, 1, 4, 3, 6, 7, 10, 9));
@@ -167,22 +167,28 @@ TEST(Exodus, SharesPointsBetweenBlocks)
 
 TEST(Exodus, ReadsTheLastTimeStepWithoutDisplacements)
 {
-    const MeshFile file = read_mesh(write_two_blocks("blocks.e"));
+    const MeshFile file = read_mesh(write_two_blocks("blocks.e"), {.scalar = "Temp"});
     EXPECT_EQ(file.mesh.points[5], glm::dvec3(2, 1, 0));
     EXPECT_EQ(file.scalar, "Temp");
     EXPECT_THAT(file.mesh.scalars, Each(0));
+}
+
+TEST(Exodus, TakesAnArrayThatVariesRatherThanOneThatDoesNot)
+{
+    EXPECT_EQ(read_mesh(write_two_blocks("blocks.e"), {.time = "first"}).scalar, "Temp");
+    EXPECT_EQ(read_mesh(write_two_blocks("blocks.e"), {.time = "last"}).scalar, "Both"); // Temp is 0 everywhere
 }
 
 TEST(Exodus, ReadsTheTimeStepAskedFor)
 {
     const auto path = write_two_blocks("blocks.e");
     for (const std::string time : {"first", "index:0", "0", "0.0"}) {
-        const MeshFile file = read_mesh(path, {.time = time});
+        const MeshFile file = read_mesh(path, {.scalar = "Temp", .time = time});
         EXPECT_THAT(file.mesh.scalars, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11)) << time;
         EXPECT_EQ(file.notes.front(), "time step 0 (from 0) of 2, at time 0");
     }
     for (const std::string time : {"last", "index:1", "1"})
-        EXPECT_THAT(read_mesh(path, {.time = time}).mesh.scalars, Each(0)) << time;
+        EXPECT_THAT(read_mesh(path, {.scalar = "Temp", .time = time}).mesh.scalars, Each(0)) << time;
     for (const std::string time : {"index:2", "index:-1", "index:", "0.5", "hello", "nan"})
         EXPECT_EQ(reading_error(path, {.time = time}), "no time \"" + time + "\"; its 2 time steps are at 0, 1");
 }
@@ -201,7 +207,7 @@ TEST(Exodus, TakesElementDataOfSomeBlocksAsMissingElsewhere)
             EXPECT_TRUE(std::isnan(file.mesh.scalars[i])) << i;
         else
             EXPECT_EQ(file.mesh.scalars[i], 7) << i;
-    EXPECT_THAT(file.notes, Contains("4 scalars are not finite"));
+    EXPECT_THAT(file.notes, Contains("4 scalars are missing: they are not finite"));
     EXPECT_EQ(reading_error(write_two_blocks("blocks.ex2"), {.scalar = "Third"}),
               "no scalar \"Third\"; it has: Temp, DISPL, Both (of cells), Second (of cells)");
 }

@@ -262,7 +262,12 @@ TEST(Xmpvo, LooksAtFourCrossingsPerBoundaryFaceAtMost)
     Xmpvo other(scene, XmpvoRays::crossings);
     other.sort(view, again);
     EXPECT_EQ(order.back_to_front, again.back_to_front) << "the same sample each time";
-    EXPECT_EQ(OrderChecker(scene).check(view.eye, order).violations, 0u);
+    // Some crossings show relations that rays through faces do not.
+    Xmpvo through_faces(scene, XmpvoRays::faces);
+    Order by_faces;
+    through_faces.sort(view, by_faces);
+    const OrderChecker checker(scene);
+    EXPECT_LT(checker.check(view.eye, order).violations, checker.check(view.eye, by_faces).violations);
 }
 
 } // namespace
