@@ -243,7 +243,12 @@ std::optional<Ray> RaysFromEye::through(const glm::dvec3& target) const
     const glm::dvec3 direction = away / length;
     // Unit coordinates are within sqrt(3) of the middle.
     const double back = std::min(length / eye_.w, glm::dot(target, direction) + 2);
-    return Ray{target - direction * back, direction};
+    const Ray ray{target - direction * back, direction};
+    // Embree takes finite rays alone; from an eye of extreme weight, doubles may hold none. Written so that what is not
+    // a number is no ray.
+    constexpr double far_from_the_scene = 1e6;
+    const bool valid = glm::length(ray.origin) < far_from_the_scene && glm::length(ray.direction) < 2;
+    return valid ? std::optional(ray) : std::nullopt;
 }
 
 void visit_faces(const BoundarySurface& surface, std::span<const Sign> sides, const VisitTargets& visit)
