@@ -103,7 +103,28 @@ TransferFunction chosen_function(const Arguments& arguments, const Scene& scene,
             scalars = {map.value(scalars->lowest), map.value(scalars->highest)};
         return stored(read_transfer_function(arguments.transfer, {unit_length, arguments.map, scalars}), map);
     }
-    return named_transfer_function(arguments.transfer, scene, unit_length);
+    const std::optional<ScalarInterval> scalars = scalar_interval(scene.mesh());
+    // What a function has at its lowest scalar is mostly nothing.
+    const bool all_equal = scalars && scalars->lowest == scalars->highest;
+    return named_transfer_function(all_equal ? "constant" : arguments.transfer, scene, unit_length);
+}
+
+// What a picture with nothing in it is for want of; empty if there is something in it.
+std::string blank_because(const Image& image, const Scene& scene, const TransferFunction& function)
+{
+    if (std::any_of(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& pixel) { return pixel.w != 0; }))
+        return {};
+    const auto is_opaque = [&](double scalar) { return function.at(scalar).extinction > 0; };
+    const auto& scalars = scene.mesh().scalars;
+    const auto& points = function.points();
+    const std::optional<ScalarInterval> range = scalar_interval(scene.mesh());
+    const bool some_opacity =
+        std::any_of(scalars.begin(), scalars.end(), [&](float scalar) { return is_opaque(scalar); }) ||
+        std::any_of(points.begin(), points.end(), [&](const OpticalPoint& point) {
+            return point.extinction > 0 && range && point.scalar >= range->lowest && point.scalar <= range->highest;
+        });
+    return some_opacity ? "the view shows nothing of the scene"
+                        : "the transfer function is transparent over all scalars of the mesh";
 }
 
 int run(const Arguments& arguments, SourcedMesh& sourced)
@@ -116,6 +137,9 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
     options.tables = {arguments.table_scalars, arguments.table_lengths, !arguments.even_lengths};
     const GlPlatform platform = gl_platform(arguments.sorter_options.gl);
 
+    const bool without_scalars = sourced.mesh.scalars.empty();
+    if (without_scalars)
+        sourced.mesh.scalars.assign(sourced.mesh.points.size(), 0.0f);
     const std::size_t dropped = settle_missing_scalars(sourced, arguments.nan);
     const Scene scene(std::move(sourced.mesh));
     const View view = chosen_view(arguments, scene);
@@ -134,6 +158,12 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
                arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
                taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
                context.renderer(), named_sorter(arguments.sorter, scene), describe(sorter->guarantee(), scene));
+    if (const std::string reason = blank_because(image, scene, function); !reason.empty())
+        fmt::print(message_stream({arguments.output}), "{}: 0 of {} cells are visible: {}\n", arguments.output,
+                   scene.cell_count(), reason);
+    if (without_scalars)
+        fmt::print(message_stream({arguments.output}), "{}: the mesh has no scalars: all of it is drawn alike\n",
+                   arguments.output);
     if (dropped > 0)
         fmt::print(message_stream({arguments.output}),
                    "{}: {} of {} cells are left out of the picture, for a scalar of theirs is missing (--nan)\n",

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace visorder::apps {
 
@@ -16,12 +17,21 @@ glm::dvec3 triple(const std::vector<double>& numbers, const char* option)
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+// From the right, above and in front, as far away as shows all of a sphere.
+glm::dvec3 three_quarter_eye(const glm::dvec3& middle, double radius, double view_angle)
+{
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.6, 0.5, 1));
+    return middle + towards * (1.02 * radius / std::sin(glm::radians(view_angle) / 2));
+}
+
 } // namespace
 
 std::shared_ptr<ViewChoice> add_view_choice(CLI::App& command)
 {
     auto choice = std::make_shared<ViewChoice>();
-    CLI::Option* eye = command.add_option("--eye", choice->eye, "Position of the eye, X,Y,Z")
+    CLI::Option* eye = command
+                           .add_option("--eye", choice->eye,
+                                       "Position of the eye, X,Y,Z (default: from the right, above and in front)")
                            ->delimiter(',')
                            ->expected(1, 3)
                            ->allow_extra_args(false);
@@ -46,9 +56,8 @@ View view_of(const ViewChoice& choice, const Scene& scene, glm::ivec2 size, doub
         view.world_to_clip = parallel(direction, middle, radius, size).world_to_clip;
         return view;
     }
-    if (choice.eye.empty())
-        throw InputError("no view given: use --eye X,Y,Z or --direction X,Y,Z");
-    const glm::dvec3 eye = triple(choice.eye, "--eye");
+    const glm::dvec3 eye =
+        choice.eye.empty() ? three_quarter_eye(middle, radius, view_angle) : triple(choice.eye, "--eye");
     View view{glm::dvec4(eye, 1), glm::dmat4(1), size};
     validate(view);
     // An eye at the very middle looks down an axis.

@@ -155,6 +155,41 @@ TEST(Tool, Renders)
     EXPECT_EQ(outcome.code, 0) << outcome.output;
 }
 
+TEST(Tool, RendersWithNoOptionButTheOutput)
+{
+    const TemporaryFolder folder;
+    const std::string out = (folder / "picture.png").string();
+    const Outcome drawn = run("render --scene delaunay:300 -o " + out);
+    EXPECT_EQ(drawn.code, 0) << drawn.output;
+    EXPECT_EQ(drawn.output.find("0 of"), std::string::npos) << drawn.output;
+
+    const std::string without_scalars =
+        folder
+            .write("mesh.vtk", "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
+                               "0 0 0  1 0 0  0 1 0  0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n")
+            .string();
+    const Outcome alike = run("render " + without_scalars + " -o " + out);
+    EXPECT_EQ(alike.code, 0) << alike.output;
+    EXPECT_NE(alike.output.find("the mesh has no scalars"), std::string::npos) << alike.output;
+    EXPECT_EQ(alike.output.find("0 of"), std::string::npos) << alike.output;
+}
+
+TEST(Tool, SaysWhyAPictureIsBlank)
+{
+    const TemporaryFolder folder;
+    const std::string out = (folder / "picture.png").string();
+    const std::string nothing = (folder / "nothing.json").string();
+    std::ofstream(nothing) << R"({"points": [{"scalar": 0, "extinction": 0, "colour": [1, 1, 1]}]})";
+    const Outcome transparent = run("render --scene delaunay:300 --transfer " + nothing + " -o " + out);
+    EXPECT_EQ(transparent.code, 0) << transparent.output;
+    EXPECT_NE(transparent.output.find("cells are visible: the transfer function is transparent"), std::string::npos)
+        << transparent.output;
+    const Outcome elsewhere = run("render --scene delaunay:300 --camera 9,9,9,20,20,20,0,1,0 -o " + out);
+    EXPECT_EQ(elsewhere.code, 0) << elsewhere.output;
+    EXPECT_NE(elsewhere.output.find("cells are visible: the view shows nothing"), std::string::npos)
+        << elsewhere.output;
+}
+
 TEST(Tool, RefusesToRenderWhatItCannot)
 {
     const TemporaryFolder folder;
