@@ -40,7 +40,8 @@ constexpr GLuint triangles_binding = 1;
 const Scene& checked(const Scene& scene)
 {
     if (!scene.is_tetrahedral())
-        throw InputError("the renderer takes tetrahedra; subdivide the mesh first");
+        throw InputError(scene.is_surface() ? "the renderer draws volumes, and this is a surface of triangles"
+                                            : "the renderer takes tetrahedra; subdivide the mesh first");
     const Mesh& mesh = scene.mesh();
     if (mesh.scalars.empty())
         throw InputError("the mesh has no scalars to draw");
