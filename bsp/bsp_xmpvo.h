@@ -7,6 +7,7 @@
 #include "scene/face_planes.h"
 #include "scene/large_array.h"
 #include "sorting/boundary_relations.h"
+#include "sorting/registry.h"
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
 
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -112,5 +114,7 @@ private:
     BoundaryRelations all_relations_;
     TopologicalSort topological_sort_;
 };
+
+std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options);
 
 } // namespace visorder

@@ -188,8 +188,8 @@ private:
     std::size_t read_length(const PlyProperty& property)
     {
         const double length = numbers_.read(property.count_type);
-        if (!(length >= 0) || length != std::floor(length) ||
-            length > static_cast<double>(numbers_.remaining() / numbers_.least_bytes(property.type) + 1))
+        const std::size_t most = numbers_.remaining() / numbers_.least_bytes(property.type) + 1;
+        if (!(length >= 0) || length != std::floor(length) || length > static_cast<double>(most))
             numbers_.fail(fmt::format("a list of {} numbers", length));
         return static_cast<std::size_t>(length);
     }

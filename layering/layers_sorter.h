@@ -2,6 +2,7 @@
 
 #include "layering/layer_extraction.h"
 #include "scene/scene.h"
+#include "sorting/registry.h"
 #include "sorting/sorter.h"
 
 #include <memory>
@@ -42,5 +43,9 @@ private:
     std::vector<std::uint8_t> drawn_;
     Layers layers_;
 };
+
+std::unique_ptr<Sorter> make_layers(const Scene& scene, const SorterOptions& options);
+std::unique_ptr<Sorter> make_layers_blocked(const Scene& scene, const SorterOptions& options);
+std::unique_ptr<Sorter> make_layers_compute(const Scene& scene, const SorterOptions& options);
 
 } // namespace visorder

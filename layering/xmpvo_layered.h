@@ -5,6 +5,7 @@
 #include "scene/face_planes.h"
 #include "scene/scene.h"
 #include "sorting/face_pairs.h"
+#include "sorting/registry.h"
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
 
@@ -58,5 +59,7 @@ private:
     LayerWork work_;
     std::size_t deepest_ = 0;
 };
+
+std::unique_ptr<Sorter> make_xmpvo_layered(const Scene& scene, const SorterOptions& options);
 
 } // namespace visorder

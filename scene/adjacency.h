@@ -19,7 +19,7 @@ struct CellFace {
     std::uint32_t face;
 
     friend bool operator==(const CellFace&, const CellFace&) = default;
-    friend auto operator<=>(const CellFace&, const CellFace&) = default;
+    friend auto operator<=>(const CellFace&, const CellFace&) = default; // NOLINT(modernize-use-nullptr)
 };
 
 /// Which cells share a face, in rows of equal length: row i holds, for each face of cell i in the order of

@@ -2,8 +2,11 @@
 
 #include "scene/face_planes.h"
 #include "sorting/boundary_relations.h"
+#include "sorting/registry.h"
 #include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
+
+#include <memory>
 
 namespace visorder {
 
@@ -32,5 +35,7 @@ private:
     std::vector<Relation> tentative_;
     TopologicalSort topological_sort_;
 };
+
+std::unique_ptr<Sorter> make_xmpvo_exact(const Scene& scene, const SorterOptions& options);
 
 } // namespace visorder
