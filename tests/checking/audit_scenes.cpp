@@ -96,8 +96,10 @@ std::vector<glm::dvec4> degenerate_eyes(const Mesh& mesh, Random& random)
     at(box.max + glm::dvec3(1e-12 * size));
     at(corner() + (1e-12 * size) * random.integer_point(-3, 3));
     at(box.middle() + 1e9 * size * random.integer_point(-5, 5));
-    const int low = static_cast<int>(std::min({box.min.x, box.min.y, box.min.z}));
-    const int high = static_cast<int>(std::max({box.max.x, box.max.y, box.max.z}));
+    // Of huge scenes no integers are near the bounds.
+    const auto integer = [](double x) { return static_cast<int>(std::clamp(x, -1e6, 1e6)); };
+    const int low = integer(std::min({box.min.x, box.min.y, box.min.z}));
+    const int high = integer(std::max({box.max.x, box.max.y, box.max.z}));
     at(random.integer_point(low, high));
     at(random.integer_point(low - 2, high + 2));
     at(random.integer_point(low - 50, high + 50));
