@@ -155,10 +155,12 @@ TEST(Tool, Renders)
     EXPECT_EQ(outcome.code, 0) << outcome.output;
 }
 
-TEST(Tool, RendersWithNoOptionButTheOutput)
+TEST(Tool, NeedsNoView)
 {
     const TemporaryFolder folder;
-    const std::string out = (folder / "picture.png").string();
+    const std::string out = (folder / "picture.png").string(), order = (folder / "order.txt").string();
+    EXPECT_EQ(run("sort --scene delaunay:300 -o " + order).code, 0);
+    EXPECT_EQ(run("check --scene delaunay:300 " + order).code, 0) << "both look from the same place";
     const Outcome drawn = run("render --scene delaunay:300 -o " + out);
     EXPECT_EQ(drawn.code, 0) << drawn.output;
     EXPECT_EQ(drawn.output.find("0 of"), std::string::npos) << drawn.output;
@@ -288,7 +290,6 @@ TEST(Tool, AnswersBadInputWithOneLineAndCode2)
     expect_one_line_and_code_2("compare --views 0", "--views");
     expect_one_line_and_code_2("compare --threads 0", "--threads");
     expect_one_line_and_code_2("compare --scene delaunay:500 --json /nowhere/result.json", "/nowhere/result.json");
-    expect_one_line_and_code_2("sort --scene delaunay:500 -o " + out, "no view");
     expect_one_line_and_code_2("sort --eye 1,2,3 -o " + out, "no mesh");
     expect_one_line_and_code_2("sort --scene sphere:20 --sorter layers --layer-size 64 --eye 1,2,3 -o " + out,
                                "--layer-size");
