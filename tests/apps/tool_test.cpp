@@ -167,8 +167,8 @@ TEST(Tool, NeedsNoView)
 
     const std::string without_scalars =
         folder
-            .write("mesh.vtk", "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
-                               "0 0 0  1 0 0  0 1 0  0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n")
+            .write("mesh.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+                               "$EndNodes\n$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n")
             .string();
     const Outcome alike = run("render " + without_scalars + " -o " + out);
     EXPECT_EQ(alike.code, 0) << alike.output;
