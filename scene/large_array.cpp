@@ -10,13 +10,14 @@ namespace {
 
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 constexpr std::size_t worth_huge_pages = 2 * huge_page;
+constexpr std::align_val_t cache_line{64}; // as elements may ask for
 
 } // namespace
 
 void* allocate_large(std::size_t bytes)
 {
     if (bytes < worth_huge_pages)
-        return ::operator new(bytes);
+        return ::operator new(bytes, cache_line);
     const std::size_t whole_pages = (bytes + huge_page - 1) / huge_page * huge_page;
     void* memory = std::aligned_alloc(huge_page, whole_pages);
     if (memory == nullptr)
@@ -38,7 +39,7 @@ void advise_huge_pages(void* memory, std::size_t bytes) noexcept
 void free_large(void* memory, std::size_t bytes) noexcept
 {
     if (bytes < worth_huge_pages)
-        ::operator delete(memory);
+        ::operator delete(memory, cache_line);
     else
         std::free(memory);
 }

@@ -8,7 +8,7 @@
 namespace visorder {
 
 /// Memory for arrays that are read in scattered order: 2 MiB aligned and advised to be on huge pages, which spares most
-/// of the address-translation misses of a sort over millions of cells. Small requests are plain allocations.
+/// of the address-translation misses of a sort over millions of cells. Small requests are aligned to 64 bytes.
 void* allocate_large(std::size_t bytes);
 void free_large(void* memory, std::size_t bytes) noexcept;
 
