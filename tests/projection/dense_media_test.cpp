@@ -92,7 +92,7 @@ TEST(DenseMedia, ExactIntegrationIsTheRayCasters)
                 context, *scene.scene, TransferFunction({{0, 1, glm::dvec3(1)}}), options));
         }
         for (const auto& [function_name, points] : functions())
-            for (const double extinction : {1e-3, 10.0, 1e4, 1e9}) {
+            for (const double extinction : {1e-3, 1.0, 10.0, 1e2, 1e4, 1e9}) {
                 const TransferFunction function = scaled(points, extinction);
                 for (const auto& renderer : renderers)
                     renderer->set_transfer_function(function);
@@ -109,8 +109,8 @@ TEST(DenseMedia, ExactIntegrationIsTheRayCasters)
                             fmt::format("{} seen from {}, {} times {}, by {}", scene.name, view.name, function_name,
                                         extinction, name(projectors()[i]));
                         EXPECT_LT(errors.root_mean_square, 1e-6) << what;
-                        // A few pixels lie in flanks so steep that single precision places them that well.
-                        EXPECT_LT(errors.largest, 5e-6) << what;
+                        // In a mesh, a few pixels lie in flanks so steep that single precision places them no better.
+                        EXPECT_LT(errors.largest, scene.scene->cell_count() == 1 ? 1e-6 : 5e-6) << what;
                     }
                 }
             }
