@@ -77,7 +77,7 @@ private:
             const char* name = nested.GetAttribute("name");
             const char* index = nested.GetAttribute("index");
             const std::string own = name && *name ? printable(name) : index ? printable(index) : std::to_string(i);
-            const std::string block = outer.empty() ? own : outer + "/" + own;
+            const std::string block = outer.empty() ? own : fmt::format("{}/{}", outer, own);
             if (kind == "Piece" && is_parallel())
                 add(nested.GetAttribute("Source"), "", nullptr);
             else if (kind == "DataSet")

@@ -40,6 +40,7 @@ struct Arguments {
     std::filesystem::path folder; // for the scenes of wrong orders; empty: none are written
     std::size_t shown = 5;        // wrong orders of each kind
     std::size_t rays = 50;        // of each view
+    std::size_t orders = 3;       // made to be wrong, of each view
     double seconds = 0;           // after which no scene is begun; 0: all are
 };
 
@@ -173,8 +174,11 @@ public:
                 ++counts_.refused;
             }
         }
-        for (const glm::dvec4& eye : audited.eyes)
+        view_ = 0;
+        for (const glm::dvec4& eye : audited.eyes) {
             view(scene, eye, sorters, names);
+            ++view_;
+        }
     }
 
     const Counts& counts() const { return counts_; }
@@ -201,8 +205,9 @@ private:
     void check_checker(const Scene& scene, const glm::dvec4& eye, const Truths& truth)
     {
         const Relations known = checker_->relations_at(eye);
-        for (std::uint64_t i = 0; i < 3; ++i) {
-            const Order order = random_order(scene, known, i < 2, number_ * 1000 + counts_.views * 10 + i);
+        for (std::uint64_t i = 0; i < arguments_.orders; ++i) {
+            const std::uint64_t seed = (number_ * 1000 + view_) * 1000 + i;
+            const Order order = random_order(scene, known, i % 3 < 2, seed);
             const CheckResult said = checker_->check(known, order), result = truth.pairs.check(order, {1});
             ++counts_.checked;
             // Relations through flat cells are some more.
@@ -247,6 +252,7 @@ private:
     const Arguments& arguments_;
     Counts counts_;
     std::uint64_t number_ = 0;
+    std::uint64_t view_ = 0; // of the scene
     const Mesh* mesh_ = nullptr;
     std::unique_ptr<OrderChecker> checker_;
 };
@@ -292,6 +298,7 @@ int main(int argc, char** argv)
     app.add_option("--write", arguments.folder, "A folder for the scenes of wrong orders, as .vtk");
     app.add_option("--seconds", arguments.seconds, "Begin no scene after this time")->capture_default_str();
     app.add_option("--rays", arguments.rays, "Rays of each view")->capture_default_str();
+    app.add_option("--orders", arguments.orders, "Orders made to be wrong, of each view")->capture_default_str();
     app.add_option("--show", arguments.shown, "Wrong orders to show of each kind")->capture_default_str();
     std::signal(SIGABRT, visorder::tests::name_current_scene);
     std::signal(SIGSEGV, visorder::tests::name_current_scene);
