@@ -43,13 +43,15 @@ Axes axes_of(const Scene& scene, const glm::dvec4& eye)
     return axes;
 }
 
-// The axes are rounded, products and sums are: twenty times 2^-53 is more than all of that. An underflow adds no more
-// than 1e-300.
+// The axes are rounded, products and sums are: twenty times 2^-53 is more than all of that. Components of the axes may
+// underflow, by less than 1e-321 each, which counts where coordinates are large in one direction and small in another.
+// An underflow of a product adds no more than 1e-300.
 Rounded dot(const glm::dvec3& axis, const glm::dvec3& v, const glm::dvec3& error)
 {
     const glm::dvec3 size(std::abs(axis.x), std::abs(axis.y), std::abs(axis.z));
     const glm::dvec3 magnitude(std::abs(v.x), std::abs(v.y), std::abs(v.z));
-    return {glm::dot(axis, v), 1e-14 * glm::dot(size, magnitude) + 1.001 * glm::dot(size, error) + 1e-300};
+    const double underflow = 1e-321 * (magnitude.x + magnitude.y + magnitude.z) + 1e-300;
+    return {glm::dot(axis, v), 1e-14 * glm::dot(size, magnitude) + 1.001 * glm::dot(size, error) + underflow};
 }
 
 Box everything()

@@ -12,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <oneapi/tbb/blocked_range.h>
@@ -363,6 +364,13 @@ glm::dvec3 OrderChecker::witness(const Relations& relations, CellId front, CellI
                 faces.push_back({cell, static_cast<std::uint32_t>(face)});
         return faces;
     };
+    // Coordinates may be so large that doubles do not hold what the rounded point is computed from.
+    const auto rounded_or_exact_point = [&](const SeenFace& exit, const SeenFace& entry) {
+        const glm::dvec3 point = common_point(exit, entry, eye);
+        if (std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z))
+            return point;
+        return occlusion_witness(body_of(mesh, front), body_of(mesh, back), eye);
+    };
     const std::vector<CellFace> exits = faces_with_side(front, Sign::negative);
     if (!scene_.is_surface())
         for (const CellFace& exit : exits)
@@ -370,15 +378,15 @@ glm::dvec3 OrderChecker::witness(const Relations& relations, CellId front, CellI
                 glm::dvec3 sum(0);
                 const FaceLoop loop = face_loop(mesh, front, static_cast<int>(exit.face));
                 for (PointId v : loop)
-                    sum += mesh.points[v];
-                return sum / static_cast<double>(loop.count);
+                    sum += mesh.points[v] / static_cast<double>(loop.count);
+                return sum;
             }
     for (const CellFace& exit : exits)
         for (const CellFace& entry : faces_with_side(back, Sign::positive)) {
             const SeenFace f = seen_face(scene_.mesh(), exit, eye), g = seen_face(scene_.mesh(), entry, eye);
             const Overlap overlap = face_overlap(f, g, eye);
             if (overlap == Overlap::nearer || overlap == Overlap::coincident)
-                return common_point(f, g, eye);
+                return rounded_or_exact_point(f, g);
         }
     throw std::logic_error("a relation without faces that show it");
 }

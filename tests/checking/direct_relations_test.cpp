@@ -2,6 +2,7 @@
 
 #include "audit_scenes.h"
 #include "brute_force.h"
+#include "checking/convex_body.h"
 #include "expectations.h"
 #include "sampled_rays.h"
 #include "scene/error.h"
@@ -78,6 +79,33 @@ TEST(DirectRelations, HoldOnEveryRayOfASampleOfEveryKindOfScene)
         }
     EXPECT_GT(relations, 1000u);
     EXPECT_GT(2 * seen, relations);
+}
+
+// Pairs are found by boxes, which must not lose any: of the scene 7024, coordinates are up to 1e297 along one axis and
+// 1e-117 along another, and components of the axes along which its boxes lie underflow.
+TEST(DirectRelations, TryEveryPairOfWhichOneOccludesTheOther)
+{
+    for (const AuditKind& kind : audit_kinds())
+        for (const std::uint64_t number : {3, 7024}) {
+            const AuditScene audited = kind.scene(number);
+            const Scene scene(audited.mesh);
+            if (scene.cell_count() > 30)
+                continue;
+            for (std::size_t i = 0; i < audited.eyes.size() && !HasFailure(); i += 2) {
+                const glm::dvec4 eye = audited.eyes[i].w < 0 ? -audited.eyes[i] : audited.eyes[i];
+                SCOPED_TRACE(reproduce(fmt::format("{} {}", kind.name, number), eye));
+                const DirectRelations direct(scene, eye);
+                for (CellId a = 0; a < scene.cell_count(); ++a)
+                    for (CellId b = a + 1; b < scene.cell_count(); ++b) {
+                        if (!can_occlude(scene.mesh(), a, eye) || !can_occlude(scene.mesh(), b, eye))
+                            continue;
+                        const ConvexBody of_a = body_of(scene.mesh(), a), of_b = body_of(scene.mesh(), b);
+                        const bool a_first = occludes(of_a, of_b, eye), b_first = occludes(of_b, of_a, eye);
+                        EXPECT_EQ(has(direct, a, b), a_first && !b_first) << a << " " << b;
+                        EXPECT_EQ(has(direct, b, a), b_first && !a_first) << b << " " << a;
+                    }
+            }
+        }
 }
 
 TEST(DirectRelations, OfSolidsWithoutOrderAreThoseOfCellsThatOverlap)

@@ -1,5 +1,7 @@
+#include "audit_scenes.h"
 #include "brute_force.h"
 #include "checking/order_checker.h"
+#include "expectations.h"
 #include "scene/error.h"
 #include "scene/overlapping_cells.h"
 #include "small_scenes.h"
@@ -7,11 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <oneapi/tbb/global_control.h>
 #include <sstream>
+#include <string_view>
 
 namespace visorder::tests {
 namespace {
@@ -377,6 +381,34 @@ TEST(OrderChecker, TrianglesOfASurfaceAreOrderedAmongThemselves)
     const CheckResult wrong = checker.check({0, 0, -1, 0}, {{0, 4, 1, 3, 2}, {}, {}});
     EXPECT_EQ(wrong.violations, 8u);
     EXPECT_EQ(wrong.witnesses.size(), 8u);
+}
+
+TEST(OrderChecker, WitnessesAreFiniteWhateverTheMagnitudes)
+{
+    const auto kinds = audit_kinds();
+    const auto magnitudes = std::find_if(
+        kinds.begin(), kinds.end(), [](const AuditKind& kind) { return kind.name == std::string_view("magnitudes"); });
+    ASSERT_NE(magnitudes, kinds.end());
+    std::size_t witnesses = 0;
+    for (const std::uint64_t number : {1, 2, 3, 4, 7024}) {
+        const AuditScene audited = magnitudes->scene(number);
+        const Scene scene(audited.mesh);
+        const OrderChecker checker(scene);
+        Order order;
+        order.back_to_front.resize(scene.cell_count());
+        std::iota(order.back_to_front.begin(), order.back_to_front.end(), CellId{0});
+        for (int turn = 0; turn < 2; ++turn) {
+            std::reverse(order.back_to_front.begin(), order.back_to_front.end());
+            for (auto i = static_cast<std::size_t>(turn); i < audited.eyes.size(); i += 3)
+                for (const Violation& v : checker.check(audited.eyes[i], order).witnesses) {
+                    ++witnesses;
+                    EXPECT_TRUE(std::isfinite(v.witness.x) && std::isfinite(v.witness.y) && std::isfinite(v.witness.z))
+                        << reproduce(fmt::format("magnitudes {}", number), audited.eyes[i]) << ", cells " << v.front
+                        << " and " << v.back;
+                }
+        }
+    }
+    EXPECT_GT(witnesses, 20u);
 }
 
 TEST(OrderChecker, RejectsOrdersThatAreNoPermutation)
