@@ -25,9 +25,10 @@ using nlohmann::json;
 
 constexpr double most_opacity = 0.999;
 constexpr double opacity_of_categories = 0.3; // where a map says none
-// How far the result may be from the map at any of the samples that are taken of each part, in opacity and in each
-// channel of the colour, linear as well as sRGB; and how often a part is halved at most.
-constexpr double tolerance = 2.5e-4;
+// How far a part may be from the map at any of the samples that are taken of it, in opacity and in each channel of the
+// colour, linear as well as sRGB; how much farther where parts are joined; and how often a part is halved at most.
+constexpr double tolerance = 4.5e-4;
+constexpr double joining_tolerance = 2.5e-4;
 constexpr int samples = 7;
 constexpr int most_halvings = 14;
 
@@ -373,6 +374,65 @@ void append_stretch(std::vector<OpticalPoint>& points, const Stretch& stretch, c
     }
 }
 
+// Where a formula of opacity ends and another begins, ascending.
+std::vector<double> opacity_breaks_of(const ColourMap& map)
+{
+    std::vector<double> breaks;
+    for (std::size_t i = 0; i < map.opacities.size(); ++i) {
+        if (i > 0)
+            breaks.push_back(
+                std::lerp(map.opacities[i - 1].scalar, map.opacities[i].scalar, map.opacities[i - 1].midpoint));
+        breaks.push_back(map.opacities[i].scalar);
+    }
+    return breaks;
+}
+
+// How far apart two points are, in what the tolerance is of.
+double difference(const OpticalPoint& a, const OpticalPoint& b, double unit_length)
+{
+    double most = std::abs(std::expm1(-a.extinction * unit_length) - std::expm1(-b.extinction * unit_length));
+    for (int k = 0; k < 3; ++k)
+        most = std::max({most, std::abs(a.colour[k] - b.colour[k]),
+                         std::abs(srgb_of_linear(a.colour[k]) - srgb_of_linear(b.colour[k]))});
+    return most;
+}
+
+bool is_jump(const std::vector<OpticalPoint>& points, std::size_t i)
+{
+    return points[i - 1].scalar == points[i].scalar || points[i].scalar == points[i + 1].scalar;
+}
+
+// Leaves out points of colours alone that their neighbours make up for: some maps have hundreds, and a renderer draws
+// every part between two points.
+std::vector<OpticalPoint> without_needless(const std::vector<OpticalPoint>& points, const ColourMap& map,
+                                           double unit_length)
+{
+    const auto is_of_opacity = [&, breaks = opacity_breaks_of(map)](double scalar) {
+        return std::binary_search(breaks.begin(), breaks.end(), scalar);
+    };
+    const auto are_needless = [&](std::size_t first, std::size_t next) {
+        const OpticalPoint &a = points[first], &b = points[next];
+        for (std::size_t i = first + 1; i < next; ++i) {
+            const double t = (points[i].scalar - a.scalar) / (b.scalar - a.scalar);
+            const OpticalPoint drawn{points[i].scalar, std::lerp(a.extinction, b.extinction, t),
+                                     glm::mix(a.colour, b.colour, t)};
+            if (!(difference(drawn, points[i], unit_length) <= joining_tolerance))
+                return false;
+        }
+        return true;
+    };
+    std::vector<OpticalPoint> result{points.front()};
+    for (std::size_t kept = 0; kept + 1 < points.size();) {
+        std::size_t next = kept + 1;
+        while (next + 1 < points.size() && !is_jump(points, next) && !is_of_opacity(points[next].scalar) &&
+               are_needless(kept, next + 1))
+            ++next;
+        result.push_back(points[next]);
+        kept = next;
+    }
+    return result;
+}
+
 // All scalars where one formula ends and another begins, ascending, each once.
 std::vector<double> breaks_of(const ColourMap& map)
 {
@@ -382,12 +442,8 @@ std::vector<double> breaks_of(const ColourMap& map)
         if (i > 0 && map.space == ColourSpace::diverging) // there may be white half way
             breaks.push_back(std::midpoint(map.colours[i - 1].scalar, map.colours[i].scalar));
     }
-    for (std::size_t i = 0; i < map.opacities.size(); ++i) {
-        breaks.push_back(map.opacities[i].scalar);
-        if (i > 0)
-            breaks.push_back(
-                std::lerp(map.opacities[i - 1].scalar, map.opacities[i].scalar, map.opacities[i - 1].midpoint));
-    }
+    const std::vector<double> of_opacities = opacity_breaks_of(map);
+    breaks.insert(breaks.end(), of_opacities.begin(), of_opacities.end());
     std::sort(breaks.begin(), breaks.end());
     breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
     return breaks;
@@ -409,7 +465,7 @@ std::vector<OpticalPoint> points_of(const ColourMap& map, double unit_length)
         append_stretch(points, stretch, from, to, most_halvings);
     }
     append(points, end(breaks.back(), map.colours.back(), map.opacities.back()));
-    return points;
+    return without_needless(points, map, unit_length);
 }
 
 // From the range of the map's colours to an interval; for an interval of one scalar, what is at the lowest.

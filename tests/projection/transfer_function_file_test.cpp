@@ -104,7 +104,7 @@ TEST(TransferFunctionFile, TurnsParaViewsOpacitiesIntoExtinctionOverTheUnitLengt
         EXPECT_NEAR(opacity(scalar), 0.2 + (scalar - 1) * 0.3, 1e-3);
     EXPECT_NEAR(opacity(9), 0.8, 1e-15);
     EXPECT_EQ(function.at(0).colour, glm::dvec3(1, 0, 0));
-    EXPECT_NEAR(function.at(1).colour.r, linear_of_srgb(0.75), 3e-4);
+    EXPECT_NEAR(function.at(1).colour.r, linear_of_srgb(0.75), 5e-4);
     EXPECT_EQ(function.at(4).colour, glm::dvec3(0, 1, 0));
 }
 

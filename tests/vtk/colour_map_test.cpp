@@ -51,6 +51,17 @@ const std::vector<Numbers> colour_points{
     {-2, 0.9, 0.1, 0.1, 1, 0.9, 0.1, 0.3, 1.5, 0.1, 0.6, 0.1, 2, 0.11, 0.6, 0.9, 9, 0.5, 0.5, 0.5},
 };
 
+// As maps with a point for each of 256 colours, but for one jump.
+Numbers many_points()
+{
+    Numbers points;
+    for (int i = 0; i < 256; ++i) {
+        const double t = i / 255.0 + (i > 200 ? 0.1 : 0);
+        points.insert(points.end(), {i == 201 ? 200.0 : i, 0.3 + 0.3 * std::sin(7 * t), 0.8 * t, 0.5 - 0.4 * t * t});
+    }
+    return points;
+}
+
 const std::vector<Numbers> opacity_points{
     {0, 0, 0.5, 0, 1, 1, 0.5, 0},
     {0, 0.1, 0.2, 0, 0.5, 0.9, 0.8, 0, 1, 0, 0.5, 0},
@@ -85,11 +96,17 @@ void at_samples(const std::vector<double>& jumps, const Check& check)
 
 TEST(ParaViewColourMap, PassesFromColourToColourAsVtkDoes)
 {
+    std::vector<Numbers> maps = colour_points;
+    maps.push_back(many_points());
     for (const Space& space : spaces)
-        for (const Numbers& points : colour_points) {
+        for (const Numbers& points : maps) {
             SCOPED_TRACE(fmt::format("{}, RGBPoints {}", space.entries, points));
             const TransferFunction function =
                 read(fmt::format("{}, \"RGBPoints\": [{}]", space.entries, fmt::join(points, ", ")));
+            // Between any two of the points that there are in the end, the renderer draws cells once more.
+            if (space.vtk == VTK_CTF_RGB && points == maps.back()) {
+                EXPECT_LT(function.points().size(), 180U);
+            }
             vtkNew<vtkColorTransferFunction> expected;
             expected->SetAllowDuplicateScalars(1);
             expected->SetColorSpace(space.vtk);
