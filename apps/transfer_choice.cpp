@@ -61,9 +61,10 @@ TransferFunction function_of_file(const TransferChoice& choice, NamedMap named, 
     TransferFunction result = stored(read_transfer_function(named.file, options), map);
     if (named.map.empty())
         if (const std::vector<std::string> names = colour_map_names(named.file); names.size() > 1)
-            notes.push_back(fmt::format("{} holds {} colour maps: the first, {}, is taken; --transfer FILE@NAME takes "
+            notes.push_back(fmt::format("{} holds {} colour maps: the first{} is taken; --transfer FILE@NAME takes "
                                         "another",
-                                        named.file.string(), names.size(), names.front()));
+                                        named.file.string(), names.size(),
+                                        names.front().empty() ? std::string() : ", " + names.front() + ","));
     return result;
 }
 

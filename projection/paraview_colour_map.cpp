@@ -26,9 +26,11 @@ using nlohmann::json;
 constexpr double most_opacity = 0.999;
 constexpr double opacity_of_categories = 0.3; // where a map says none
 // How far a part may be from the map at any of the samples that are taken of it, in opacity and in each channel of the
-// colour, linear as well as sRGB; how much farther where parts are joined; and how often a part is halved at most.
+// colour, linear as well as sRGB; how much farther where parts are joined, and how many of
+// them; and how often a part is halved at most.
 constexpr double tolerance = 4.5e-4;
 constexpr double joining_tolerance = 2.5e-4;
+constexpr std::size_t most_joined = 64;
 constexpr int samples = 7;
 constexpr int most_halvings = 14;
 
@@ -265,6 +267,14 @@ double part_between(double from, double to, double scalar)
     return std::clamp((scalar - from) / (to - from), 0.0, 1.0);
 }
 
+template <class Node>
+std::size_t first_above(const std::vector<Node>& nodes, double scalar)
+{
+    const auto above = std::upper_bound(nodes.begin(), nodes.end(), scalar,
+                                        [](double value, const Node& node) { return value < node.scalar; });
+    return static_cast<std::size_t>(above - nodes.begin());
+}
+
 // What a map has between two scalars with no node and no midpoint between them: one formula, and at both ends the value
 // that it has coming from within.
 class Stretch {
@@ -272,14 +282,8 @@ public:
     Stretch(const ColourMap& map, double from, double to, double unit_length) : map_(map), unit_length_(unit_length)
     {
         const double inside = std::midpoint(from, to);
-        next_colour_ =
-            static_cast<std::size_t>(std::find_if(map.colours.begin(), map.colours.end(),
-                                                  [&](const ColourNode& node) { return node.scalar > inside; }) -
-                                     map.colours.begin());
-        next_opacity_ =
-            static_cast<std::size_t>(std::find_if(map.opacities.begin(), map.opacities.end(),
-                                                  [&](const OpacityNode& node) { return node.scalar > inside; }) -
-                                     map.opacities.begin());
+        next_colour_ = first_above(map.colours, inside);
+        next_opacity_ = first_above(map.opacities, inside);
         if (next_opacity_ > 0 && next_opacity_ < map.opacities.size()) {
             const OpacityNode& before = map.opacities[next_opacity_ - 1];
             const OpacityNode& after = map.opacities[next_opacity_];
@@ -424,8 +428,8 @@ std::vector<OpticalPoint> without_needless(const std::vector<OpticalPoint>& poin
     std::vector<OpticalPoint> result{points.front()};
     for (std::size_t kept = 0; kept + 1 < points.size();) {
         std::size_t next = kept + 1;
-        while (next + 1 < points.size() && !is_jump(points, next) && !is_of_opacity(points[next].scalar) &&
-               are_needless(kept, next + 1))
+        while (next + 1 < points.size() && next - kept < most_joined && !is_jump(points, next) &&
+               !is_of_opacity(points[next].scalar) && are_needless(kept, next + 1))
             ++next;
         result.push_back(points[next]);
         kept = next;
