@@ -4,6 +4,7 @@
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/sorter_options.h"
+#include "apps/view_choice.h"
 #include "apps/weld_option.h"
 #include "bench/comparison.h"
 #include "bench/report.h"
@@ -24,6 +25,7 @@ struct Arguments {
     ComparisonOptions options;
     std::vector<std::string> sorters;
     std::string size = "512x512";
+    std::vector<double> up;
     std::string json_file;
     WeldOption weld;
     bool whole = false;
@@ -49,6 +51,8 @@ int run(Arguments& arguments)
     options.weld_tolerance = arguments.weld.tolerance;
     options.size = image_size(arguments.size, "--size");
     options.subdivide = !arguments.whole;
+    if (!arguments.up.empty())
+        options.up = up_direction(arguments.up);
     if (arguments.sorters != std::vector<std::string>{"all"})
         options.sorters = arguments.sorters;
     if (options.files.empty() && options.generated.empty())
@@ -102,6 +106,9 @@ void add_compare_command(CLI::App& app, Command& chosen)
         ->check(CLI::Range(1, 10000));
     command->add_flag("--hard", options.hard_views, "Also the views from which orders go wrong first");
     command->add_option("--size", arguments->size, "Pixels of a view, WxH")->capture_default_str();
+    add_up_option(*command, arguments->up)
+        ->description(
+            "The direction that is up in pictures, X,Y,Z, but in views along it (default: what suits the scene)");
     command->add_option("--seed", options.seed, "Of the random views")->capture_default_str()->check(count_from(0));
     command->add_option("--repeats", options.repeats, "Timed sorts a view, of which the median counts")
         ->capture_default_str()

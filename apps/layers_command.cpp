@@ -3,6 +3,7 @@
 #include "apps/output_file.h"
 #include "apps/progress.h"
 #include "apps/scene_source.h"
+#include "apps/view_choice.h"
 #include "bench/layer_pictures.h"
 #include "bench/layer_truth.h"
 #include "layering/layers_sorter.h"
@@ -26,6 +27,7 @@ namespace {
 struct Arguments {
     std::shared_ptr<SceneSource> source;
     std::vector<std::string> sizes{"256x256", "512x512"};
+    std::vector<double> up;
     int frames = 30;
     int block = 64;
     std::string gl = "auto";
@@ -79,14 +81,16 @@ std::size_t used_points(const Mesh& mesh)
 }
 
 // Once around the scene, a little from above.
-View frame_view(const Scene& scene, double turns, glm::ivec2 size)
+View frame_view(const Scene& scene, const Upright& upright, double turns, glm::ivec2 size)
 {
     const glm::dvec3 middle = scene.bounds().middle();
     const double half = glm::length(scene.bounds().max * 0.5 - scene.bounds().min * 0.5);
     const double radius = half > 0 ? half : 1;
     const double angle = 2 * std::numbers::pi * turns;
-    const glm::dvec3 direction = glm::normalize(glm::dvec3(std::sin(angle), 0.35, std::cos(angle)));
-    return look_at(middle + 4.2 * radius * direction, middle, radius, 27, size);
+    const ViewAxes axes = view_axes(upright.up);
+    const glm::dvec3 direction =
+        glm::normalize(std::sin(angle) * axes.right + 0.35 * axes.up + std::cos(angle) * axes.front);
+    return look_at(middle + 4.2 * radius * direction, middle, radius, 27, size, upright);
 }
 
 struct Frames {
@@ -96,13 +100,13 @@ struct Frames {
     std::vector<Layers> of_frames;
 };
 
-Frames run_frames(const Scene& scene, LayersSorter& sorter, glm::ivec2 size, int count)
+Frames run_frames(const Scene& scene, const Upright& upright, LayersSorter& sorter, glm::ivec2 size, int count)
 {
     Frames frames;
     Order order;
-    sorter.sort(frame_view(scene, 0, size), order); // warms the renderer and the caches
+    sorter.sort(frame_view(scene, upright, 0, size), order); // warms the renderer and the caches
     for (int i = 0; i < count; ++i) {
-        sorter.sort(frame_view(scene, static_cast<double>(i) / count, size), order);
+        sorter.sort(frame_view(scene, upright, static_cast<double>(i) / count, size), order);
         const LayerWork& work = sorter.work();
         frames.work.rendering_s += work.rendering_s;
         frames.work.reading_s += work.reading_s;
@@ -128,6 +132,7 @@ bool same(const Layers& a, const Layers& b)
 bool check_frames(const Scene& scene, const NamedSurface& surface, const Arguments& arguments, glm::ivec2 size,
                   Progress& progress)
 {
+    const Upright upright = upright_of(arguments.up, scene);
     std::vector<Layers> expected;
     bool right = true;
     for (const GlPlatform platform : {GlPlatform::egl, GlPlatform::osmesa})
@@ -137,7 +142,7 @@ bool check_frames(const Scene& scene, const NamedSurface& surface, const Argumen
                     continue;
                 progress.show(fmt::format("{} x {}, {} on {}", size.x, size.y, variant.name, name(platform)));
                 LayersSorter sorter(scene, variant.variant, platform, size, block);
-                Frames frames = run_frames(scene, sorter, size, arguments.frames);
+                Frames frames = run_frames(scene, upright, sorter, size, arguments.frames);
                 if (expected.empty())
                     expected = std::move(frames.of_frames);
                 else if (!std::equal(expected.begin(), expected.end(), frames.of_frames.begin(), same)) {
@@ -150,7 +155,7 @@ bool check_frames(const Scene& scene, const NamedSurface& surface, const Argumen
     for (int i = 0; i < arguments.frames; ++i) {
         progress.show(fmt::format("{} x {}, truth of frame {}", size.x, size.y, i + 1));
         const LayerCheck check = check_layers(
-            surface.mesh, frame_view(scene, static_cast<double>(i) / arguments.frames, size), size,
+            surface.mesh, frame_view(scene, upright, static_cast<double>(i) / arguments.frames, size), size,
             expected[static_cast<std::size_t>(i)], [&](CellId triangle) { return surface.cells.name(triangle); });
         sum.samples += check.samples;
         sum.fragments += check.fragments;
@@ -178,6 +183,7 @@ int run(const Arguments& arguments)
     const NamedSurface surface = surface_of(sourced);
     const Mesh& mesh = surface.mesh;
     const Scene scene(mesh);
+    const Upright upright = upright_of(arguments.up, scene);
 
     Progress progress;
     std::string depths, work;
@@ -186,7 +192,7 @@ int run(const Arguments& arguments)
         for (const Variant& variant : variants) {
             progress.show(fmt::format("{} x {}, {}", size.x, size.y, variant.name));
             LayersSorter sorter(scene, variant.variant, platform, size, arguments.block);
-            const Frames frames = run_frames(scene, sorter, size, arguments.frames);
+            const Frames frames = run_frames(scene, upright, sorter, size, arguments.frames);
             renderer = sorter.context().renderer();
             const double count = arguments.frames;
             if (variant.variant == LayerVariant::naive)
@@ -205,8 +211,9 @@ int run(const Arguments& arguments)
         }
     progress.show("pictures");
     LayersSorter sorter(scene, LayerVariant::blocked, platform, sizes.back(), arguments.block);
-    const std::uint32_t pictures = write_layer_pictures(mesh, sorter, frame_view(scene, 0.08, sizes.back()),
-                                                        frame_view(scene, 0.58, sizes.back()), arguments.folder);
+    const std::uint32_t pictures =
+        write_layer_pictures(mesh, sorter, frame_view(scene, upright, 0.08, sizes.back()),
+                             frame_view(scene, upright, 0.58, sizes.back()), arguments.folder);
 
     std::string header;
     for (const glm::ivec2 size : sizes)
@@ -239,6 +246,7 @@ void add_layers_command(CLI::App& app, Command& chosen)
     command->add_option("--size", arguments->sizes, "Pixels of the images, WxH,WxH,... (default: 256x256,512x512)")
         ->delimiter(',')
         ->allow_extra_args(false);
+    add_up_option(*command, arguments->up);
     command->add_option("--frames", arguments->frames, "Views, once around the model")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));

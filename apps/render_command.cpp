@@ -5,11 +5,12 @@
 #include "apps/output_file.h"
 #include "apps/scene_source.h"
 #include "apps/sorter_options.h"
+#include "apps/transfer_choice.h"
 #include "apps/view_choice.h"
 #include "bench/image_file.h"
 #include "graphics/context.h"
 #include "projection/renderer.h"
-#include "projection/transfer_function_file.h"
+#include "projection/surface_renderer.h"
 #include "scene/error.h"
 #include "scene/scalar_interval.h"
 #include "sorting/registry.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
@@ -37,18 +39,18 @@ struct Arguments {
     SorterOptions sorter_options;
     std::string projector = name(RenderOptions{}.projector);
     std::string integrator = name(RenderOptions{}.integrator);
-    std::string transfer = "cool-warm";
-    std::string map;
+    std::shared_ptr<TransferChoice> transfer;
     std::string nan = "drop";
-    double unit_length = 0;
     std::vector<double> camera;
-    double view_angle = 30;
+    std::optional<double> view_angle;
     std::string size = "512x512";
     int blending_bits = RenderOptions{}.blending_bits;
     std::size_t table_scalars = 0;
     std::size_t table_lengths = TableOptions{}.lengths;
     bool even_lengths = false;
     std::vector<float> background{1, 1, 1};
+    std::vector<double> colour;
+    std::optional<double> opacity;
     std::string output;
 };
 
@@ -73,7 +75,7 @@ View chosen_view(const Arguments& arguments, const Scene& scene)
     camera.position = {c[0], c[1], c[2]};
     camera.focal_point = {c[3], c[4], c[5]};
     camera.up = {c[6], c[7], c[8]};
-    camera.view_angle = arguments.view_angle;
+    camera.view_angle = arguments.view_angle.value_or(camera.view_angle);
     // Near and far plane clip nothing here, but must be somewhere.
     const double distance = glm::length(camera.focal_point - camera.position);
     camera.near = 1e-3 * distance;
@@ -81,39 +83,14 @@ View chosen_view(const Arguments& arguments, const Scene& scene)
     return view_of(camera, size);
 }
 
-// A function of a file's scalars, over the scalars that the mesh has for them.
-TransferFunction stored(const TransferFunction& of_values, const ScalarMap& map)
+bool is_blank(const Image& image)
 {
-    std::vector<OpticalPoint> points(of_values.points().begin(), of_values.points().end());
-    for (OpticalPoint& point : points)
-        point.scalar = map.stored(point.scalar);
-    return TransferFunction(std::move(points));
+    return std::none_of(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& pixel) { return pixel.w != 0; });
 }
 
-TransferFunction chosen_function(const Arguments& arguments, const Scene& scene, const ScalarMap& map)
+// What a picture with nothing in it is for want of.
+std::string blank_because(const Scene& scene, const TransferFunction& function)
 {
-    const auto names = transfer_function_names();
-    const double unit_length = arguments.unit_length != 0 ? arguments.unit_length : scene.diameter() / 10;
-    if (std::find(names.begin(), names.end(), arguments.transfer) == names.end()) {
-        if (!std::filesystem::exists(arguments.transfer))
-            throw InputError(fmt::format("{}: neither a file nor a transfer function; there are: {}",
-                                         arguments.transfer, fmt::join(names, ", ")));
-        std::optional<ScalarInterval> scalars = scalar_interval(scene.mesh());
-        if (scalars)
-            scalars = {map.value(scalars->lowest), map.value(scalars->highest)};
-        return stored(read_transfer_function(arguments.transfer, {unit_length, arguments.map, scalars}), map);
-    }
-    const std::optional<ScalarInterval> scalars = scalar_interval(scene.mesh());
-    // What a function has at its lowest scalar is mostly nothing.
-    const bool all_equal = scalars && scalars->lowest == scalars->highest;
-    return named_transfer_function(all_equal ? "constant" : arguments.transfer, scene, unit_length);
-}
-
-// What a picture with nothing in it is for want of; empty if there is something in it.
-std::string blank_because(const Image& image, const Scene& scene, const TransferFunction& function)
-{
-    if (std::any_of(image.pixels.begin(), image.pixels.end(), [](const glm::vec4& pixel) { return pixel.w != 0; }))
-        return {};
     const auto is_opaque = [&](double scalar) { return function.at(scalar).extinction > 0; };
     const auto& scalars = scene.mesh().scalars;
     const auto& points = function.points();
@@ -127,48 +104,134 @@ std::string blank_because(const Image& image, const Scene& scene, const Transfer
                         : "the transfer function is transparent over all scalars of the mesh";
 }
 
-int run(const Arguments& arguments, SourcedMesh& sourced)
+struct Picture {
+    Image image;
+    std::string drawn;              // what, in how long, by what
+    std::string blank;              // why, if there is nothing in it
+    std::vector<std::string> notes; // lines
+};
+
+// What the picture is made of.
+struct Subject {
+    const Scene& scene;
+    const ScalarMap& scalar_map;
+    const View& view;
+    const std::function<const Order&()>& sorted; // sorts, so that what cannot be drawn is refused before
+    const Context& context;
+};
+
+RenderOptions render_options(const Arguments& arguments)
 {
-    const bool exr = is_exr(arguments.output);
     RenderOptions options;
     options.projector = projector_named(arguments.projector);
     options.integrator = integrator_named(arguments.integrator);
     options.blending_bits = arguments.blending_bits;
     options.tables = {arguments.table_scalars, arguments.table_lengths, !arguments.even_lengths};
+    return options;
+}
+
+Picture volume_picture(const Arguments& arguments, const Subject& of)
+{
+    if (!arguments.colour.empty() || arguments.opacity)
+        throw InputError("--color and --opacity are of surfaces; what volumes look like, --transfer says");
+    Picture picture;
+    const RenderOptions options = render_options(arguments);
+    const TransferFunction function = transfer_function_of(*arguments.transfer, of.scene, of.scalar_map, picture.notes);
+    ProjectionRenderer renderer(of.context, of.scene, function, options);
+    picture.image = renderer.draw(of.view, of.sorted());
+    const RenderStatistics& taken = renderer.statistics();
+    picture.drawn = fmt::format("{} cells as {} triangles in {:.3f} s by {} and {} on {}", of.scene.cell_count(),
+                                taken.triangles, taken.place_s + taken.draw_s + taken.read_s, name(options.projector),
+                                name(options.integrator), of.context.renderer());
+    if (is_blank(picture.image))
+        picture.blank = blank_because(of.scene, function);
+    return picture;
+}
+
+Picture surface_picture(const Arguments& arguments, const Subject& of)
+{
+    Picture picture;
+    SurfaceOptions options;
+    options.blending_bits = arguments.blending_bits;
+    options.opacity = arguments.opacity.value_or(options.opacity);
+    if (!arguments.colour.empty())
+        options.colour = {arguments.colour[0], arguments.colour[1], arguments.colour[2]};
+    else if (!of.scene.mesh().scalars.empty())
+        options.function = transfer_function_of(*arguments.transfer, of.scene, of.scalar_map, picture.notes);
+    SurfaceRenderer renderer(of.context, of.scene, options);
+    picture.image = renderer.draw(of.view, of.sorted());
+    const SurfaceStatistics& taken = renderer.statistics();
+    picture.drawn = fmt::format("{} of {} triangles in {:.3f} s, opacity {:g}, {} on {}", taken.triangles,
+                                of.scene.cell_count(), taken.place_s + taken.draw_s + taken.read_s, options.opacity,
+                                options.function ? "coloured by scalars" : "in one colour", of.context.renderer());
+    if (is_blank(picture.image))
+        picture.blank =
+            options.opacity == 0 ? "the opacity is 0" : "the view shows nothing of the scene, or its edges alone";
+    return picture;
+}
+
+std::string cycles_note(const Order& order)
+{
+    std::size_t cells = 0;
+    for (const auto& cycle : order.cycles)
+        cells += cycle.size();
+    return fmt::format(
+        "{} cells occlude each other in {} cycle{}: no order of them is right, and they are drawn in any", cells,
+        order.cycles.size(), order.cycles.size() == 1 ? "" : "s");
+}
+
+// Of a volume, all cells need a scalar; surfaces that have none get one colour.
+std::size_t settle_scalars(const Arguments& arguments, SourcedMesh& sourced, bool is_surface)
+{
+    if (is_surface && !arguments.colour.empty())
+        sourced.mesh.scalars.clear();
+    if (sourced.mesh.scalars.empty() && !is_surface)
+        sourced.mesh.scalars.assign(sourced.mesh.points.size(), 0.0f);
+    return settle_missing_scalars(sourced, arguments.nan);
+}
+
+int run(const Arguments& arguments, SourcedMesh& sourced)
+{
+    const bool exr = is_exr(arguments.output);
+    render_options(arguments); // before the work
     const GlPlatform platform = gl_platform(arguments.sorter_options.gl);
 
-    const bool without_scalars = sourced.mesh.scalars.empty();
-    if (without_scalars)
-        sourced.mesh.scalars.assign(sourced.mesh.points.size(), 0.0f);
-    const std::size_t dropped = settle_missing_scalars(sourced, arguments.nan);
+    const bool is_surface = !sourced.mesh.shapes.empty() && sourced.mesh.shapes.front() == CellShape::triangle;
+    const bool without_scalars = sourced.mesh.scalars.empty() && !is_surface;
+    const std::size_t dropped = settle_scalars(arguments, sourced, is_surface);
     const Scene scene(std::move(sourced.mesh));
     const View view = chosen_view(arguments, scene);
-    const TransferFunction function = chosen_function(arguments, scene, sourced.scalar_map);
     const Context context(platform);
-    ProjectionRenderer renderer(context, scene, function, options);
-    const auto sorter = make_sorter(arguments.sorter, scene, arguments.sorter_options);
+    std::unique_ptr<Sorter> sorter;
     Order order;
-    sorter->sort(view, order);
-    const Image image = renderer.draw(view, order);
+    const std::function<const Order&()> sorted = [&]() -> const Order& {
+        sorter = make_sorter(arguments.sorter, scene, arguments.sorter_options);
+        sorter->sort(view, order);
+        return order;
+    };
+    const Subject subject{scene, sourced.scalar_map, view, sorted, context};
+    Picture picture = is_surface ? surface_picture(arguments, subject) : volume_picture(arguments, subject);
     const PngStyle style{{arguments.background[0], arguments.background[1], arguments.background[2]}, true};
-    write_file(arguments.output, exr ? exr_of(image) : png_of(image, style));
-    const RenderStatistics& taken = renderer.statistics();
-    fmt::print(message_stream({arguments.output}),
-               "{}: {} x {}, {} cells as {} triangles in {:.3f} s by {} and {} on {}; sorted by {} ({})\n",
-               arguments.output, image.size.x, image.size.y, scene.cell_count(), taken.triangles,
-               taken.place_s + taken.draw_s + taken.read_s, name(options.projector), name(options.integrator),
-               context.renderer(), named_sorter(arguments.sorter, scene), describe(sorter->guarantee(), scene));
-    if (const std::string reason = blank_because(image, scene, function); !reason.empty())
-        fmt::print(message_stream({arguments.output}), "{}: 0 of {} cells are visible: {}\n", arguments.output,
-                   scene.cell_count(), reason);
+    write_file(arguments.output, exr ? exr_of(picture.image) : png_of(picture.image, style));
+
+    std::FILE* const out = message_stream({arguments.output});
+    fmt::print(out, "{}: {} x {}, {}; sorted by {} ({})\n", arguments.output, picture.image.size.x,
+               picture.image.size.y, picture.drawn, named_sorter(arguments.sorter, scene),
+               describe(sorter->guarantee(), scene));
+    if (!picture.blank.empty())
+        picture.notes.push_back(
+            fmt::format("0 of {} cells are visible: {}", scene.cell_count(), std::move(picture.blank)));
     if (without_scalars)
-        fmt::print(message_stream({arguments.output}), "{}: the mesh has no scalars: all of it is drawn alike\n",
-                   arguments.output);
+        picture.notes.emplace_back("the mesh has no scalars: all of it is drawn alike");
     if (dropped > 0)
-        fmt::print(message_stream({arguments.output}),
-                   "{}: {} of {} cells are left out of the picture, for a scalar of theirs is missing (--nan)\n",
-                   arguments.output, dropped, scene.cell_count() + dropped);
-    tell_faults(message_stream({arguments.output}), sourced, scene);
+        picture.notes.push_back(
+            fmt::format("{} of {} cells are left out of the picture, for a scalar of theirs is missing (--nan)",
+                        dropped, scene.cell_count() + dropped));
+    if (!order.cycles.empty())
+        picture.notes.push_back(cycles_note(order));
+    for (const std::string& note : picture.notes)
+        fmt::print(out, "{}: {}\n", arguments.output, note);
+    tell_faults(out, sourced, scene);
     return exit_success;
 }
 
@@ -185,7 +248,8 @@ int run(const Arguments& arguments)
 void add_render_command(CLI::App& app, Command& chosen)
 {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("render", "Draw a mesh of tetrahedra as a volume, in a sorter's order");
+    CLI::App* command = app.add_subcommand(
+        "render", "Draw a volume of tetrahedra, or a translucent surface of triangles, in a sorter's order");
     arguments->source = add_scene_source(*command);
     arguments->view = add_view_choice(*command);
     command
@@ -195,9 +259,11 @@ void add_render_command(CLI::App& app, Command& chosen)
         ->expected(9)
         ->allow_extra_args(false)
         ->excludes("--eye")
-        ->excludes("--direction");
-    command->add_option("--view-angle", arguments->view_angle, "Vertical, in degrees, of a perspective view")
-        ->capture_default_str()
+        ->excludes("--direction")
+        ->excludes(arguments->view->up_option);
+    command
+        ->add_option("--view-angle", arguments->view_angle,
+                     "Vertical, in degrees, of a perspective view (default: 30, or what fits the scene from --eye)")
         ->check(between(0.001, 179.999));
     command->add_option("--size", arguments->size, "Pixels, WxH")->capture_default_str();
     command->add_option("--sorter", arguments->sorter, "Which one; `visorder sorters` lists them")
@@ -208,21 +274,12 @@ void add_render_command(CLI::App& app, Command& chosen)
         ->add_option("--integrator", arguments->integrator,
                      "linear, exponential, preintegrated-2d, preintegrated-3d or exact")
         ->capture_default_str();
-    command
-        ->add_option("--transfer", arguments->transfer,
-                     fmt::format("Transfer function: a JSON file, visorder's or ParaView's, or one of {}",
-                                 fmt::join(transfer_function_names(), ", ")))
-        ->capture_default_str();
+    arguments->transfer = add_transfer_choice(*command);
     command
         ->add_option("--nan", arguments->nan,
                      "Cells with a scalar that is missing: drop them, take the lowest scalar, or refuse")
         ->capture_default_str()
         ->check(CLI::IsMember({"drop", "lowest", "refuse"}));
-    command->add_option("--map", arguments->map, "The colour map to take from a ParaView file of several");
-    command
-        ->add_option("--unit-length", arguments->unit_length,
-                     "The distance over which opacities hold (default: a tenth of the scene's diameter)")
-        ->check(positive());
     command->add_option("--blending", arguments->blending_bits, "Bits of a channel: 32 or 16 (floats), or 8")
         ->capture_default_str();
     command
@@ -238,6 +295,15 @@ void add_render_command(CLI::App& app, Command& chosen)
         ->delimiter(',')
         ->expected(3)
         ->allow_extra_args(false)
+        ->check(between(0, 1));
+    command
+        ->add_option("--color,--colour", arguments->colour,
+                     "Of a surface, R,G,B, linear, in [0, 1] (default: by its scalars where it has any)")
+        ->delimiter(',')
+        ->expected(3)
+        ->allow_extra_args(false)
+        ->check(between(0, 1));
+    command->add_option("--opacity", arguments->opacity, "Of a surface's triangles (default: 0.5)")
         ->check(between(0, 1));
     command
         ->add_option("-o,--output", arguments->output, "Where to: .png, or .exr for the floats; - for standard output")

@@ -268,9 +268,9 @@ void compare_on(const Source& source, const ComparisonOptions& options, const Pr
         file.mesh = std::move(subdivision.mesh);
     }
     const Scene scene(std::move(file.mesh));
-    auto views = random_views(scene, options.views, options.seed, options.size);
+    auto views = random_views(scene, options.views, options.seed, options.size, options.up);
     if (options.hard_views)
-        for (NamedView& view : hard_views(scene, options.size))
+        for (NamedView& view : hard_views(scene, options.size, options.up))
             views.push_back(std::move(view));
 
     std::vector<Candidate> candidates;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct ComparisonOptions {
     int views = 4;                            ///< random views of each scene
     bool hard_views = false;                  ///< and those where orders go wrong first
     glm::ivec2 size{512, 512};                ///< of the views, in pixels
+    std::optional<glm::dvec3> up;             ///< in the views; none: what suits each scene
     std::uint64_t seed = 1;                   ///< of the views
     int repeats = 5;                          ///< timed sorts a view, of which the median counts
     bool subdivide = true;                    ///< zoo cells into tetrahedra

@@ -1,6 +1,7 @@
 #include "bench/frames.h"
 
 #include "checking/ray_caster.h"
+#include "scene/error.h"
 #include "scene/stopwatch.h"
 
 namespace visorder::bench {
@@ -13,21 +14,40 @@ std::vector<MediumPoint> medium_of(const TransferFunction& function)
     return medium;
 }
 
+namespace {
+
+TransferFunction function_for(const Scene& scene)
+{
+    if (scene.is_surface() && scene.mesh().scalars.empty())
+        throw InputError("the surface has no scalars, and in one colour no order shows");
+    return named_transfer_function("rainbow", scene, scene.diameter() / 40);
+}
+
+} // namespace
+
 Frames::Frames(const Scene& scene, GlPlatform platform)
-    : scene_(scene), context_(platform), function_(named_transfer_function("rainbow", scene, scene.diameter() / 40))
+    : scene_(scene), context_(platform), function_(function_for(scene))
 {
     const Context::Current current(context_);
-    renderer_ = std::make_unique<ProjectionRenderer>(context_, scene, function_);
+    if (scene.is_surface()) {
+        SurfaceOptions options;
+        options.function = function_;
+        surface_renderer_ = std::make_unique<SurfaceRenderer>(context_, scene, options);
+    } else {
+        renderer_ = std::make_unique<ProjectionRenderer>(context_, scene, function_);
+    }
 }
 
 Image Frames::draw(const View& view, const Order& order)
 {
     const Context::Current current(context_);
-    return renderer_->draw(view, order);
+    return surface_renderer_ ? surface_renderer_->draw(view, order) : renderer_->draw(view, order);
 }
 
 std::vector<IntegratorResult> Frames::integrators(const View& view, const Order& order)
 {
+    if (surface_renderer_)
+        return {};
     const std::vector<MediumPoint> medium = medium_of(function_);
     RayCastOptions options;
     options.silhouette_margin = 1;

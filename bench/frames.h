@@ -4,6 +4,7 @@
 #include "checking/medium_integral.h"
 #include "graphics/context.h"
 #include "projection/renderer.h"
+#include "projection/surface_renderer.h"
 #include "projection/transfer_function.h"
 #include "scene/image.h"
 #include "scene/scene.h"
@@ -28,7 +29,7 @@ std::vector<MediumPoint> medium_of(const TransferFunction& function);
 
 /// Frames of one scene, drawn in whatever order, to see what an order does to the picture. The medium is the named
 /// transfer function "rainbow" over the scene's scalars, in which order shows: all of it is translucent, and near
-/// colours differ from far ones.
+/// colours differ from far ones. A surface has the same colours, and hides half of what is behind it.
 ///
 /// One thread at a time.
 class Frames {
@@ -40,14 +41,15 @@ public:
 
     Image draw(const View& view, const Order& order);
 
-    /// The errors and times of all integrators, in an order that is right.
+    /// The errors and times of all integrators, in an order that is right; none of a surface, which has no medium.
     std::vector<IntegratorResult> integrators(const View& view, const Order& order);
 
 private:
     const Scene& scene_;
     Context context_;
     TransferFunction function_;
-    std::unique_ptr<ProjectionRenderer> renderer_;
+    std::unique_ptr<ProjectionRenderer> renderer_;      // of a volume,
+    std::unique_ptr<SurfaceRenderer> surface_renderer_; // or of a surface
 };
 
 } // namespace visorder::bench

@@ -24,8 +24,11 @@ std::string words(const char* what, const glm::dvec3& p)
 
 class Viewpoints {
 public:
-    Viewpoints(const Scene& scene, glm::ivec2 size)
-        : middle_(scene.bounds().middle()), radius_(radius_of(scene)), size_(size)
+    Viewpoints(const Scene& scene, glm::ivec2 size, const std::optional<glm::dvec3>& up)
+        : middle_(scene.bounds().middle()),
+          radius_(radius_of(scene)),
+          size_(size),
+          upright_(up ? Upright{*up, false} : upright_for(scene.bounds()))
     {
     }
 
@@ -33,11 +36,11 @@ public:
     {
         // An eye at the very middle looks down an axis.
         const glm::dvec3 target = eye == middle_ ? eye - glm::dvec3(0, 0, radius_) : middle_;
-        return {words(what, eye), look_at(eye, target, radius_, 45, size_)};
+        return {words(what, eye), look_at(eye, target, radius_, 45, size_, upright_)};
     }
     NamedView along(const char* what, const glm::dvec3& towards_viewer) const
     {
-        return {words(what, towards_viewer), parallel(towards_viewer, middle_, radius_, size_)};
+        return {words(what, towards_viewer), parallel(towards_viewer, middle_, radius_, size_, upright_)};
     }
 
     const glm::dvec3& middle() const { return middle_; }
@@ -47,6 +50,7 @@ private:
     glm::dvec3 middle_;
     double radius_;
     glm::ivec2 size_;
+    Upright upright_;
 };
 
 glm::dvec3 mean_of(const Mesh& mesh, std::span<const PointId> vertices)
@@ -59,9 +63,10 @@ glm::dvec3 mean_of(const Mesh& mesh, std::span<const PointId> vertices)
 
 } // namespace
 
-std::vector<NamedView> random_views(const Scene& scene, int count, std::uint64_t seed, glm::ivec2 size)
+std::vector<NamedView> random_views(const Scene& scene, int count, std::uint64_t seed, glm::ivec2 size,
+                                    const std::optional<glm::dvec3>& up)
 {
-    const Viewpoints viewpoints(scene, size);
+    const Viewpoints viewpoints(scene, size, up);
     Random random(seed);
     const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
     std::vector<NamedView> views;
@@ -80,9 +85,9 @@ std::vector<NamedView> random_views(const Scene& scene, int count, std::uint64_t
     return views;
 }
 
-std::vector<NamedView> hard_views(const Scene& scene, glm::ivec2 size)
+std::vector<NamedView> hard_views(const Scene& scene, glm::ivec2 size, const std::optional<glm::dvec3>& up)
 {
-    const Viewpoints viewpoints(scene, size);
+    const Viewpoints viewpoints(scene, size, up);
     const Mesh& mesh = scene.mesh();
     const Box& box = scene.bounds();
     const auto middle_cell = scene.cell_count() / 2;

@@ -4,6 +4,7 @@
 #include "scene/view.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,15 @@ struct NamedView {
 };
 
 /// Views of the whole scene from random directions, alternately perspective (from 1 to 3 radii off the bounding sphere)
-/// and parallel. The first `count` of the endless sequence that `seed` starts; the same on every machine.
-std::vector<NamedView> random_views(const Scene& scene, int count, std::uint64_t seed, glm::ivec2 size);
+/// and parallel. The first `count` of the endless sequence that `seed` starts; the same on every machine. What is up
+/// in them: `up`, if given, where it does not lie along the view; else what suits the scene.
+std::vector<NamedView> random_views(const Scene& scene, int count, std::uint64_t seed, glm::ivec2 size,
+                                    const std::optional<glm::dvec3>& up = std::nullopt);
 
 /// The views from which orders go wrong first: from a vertex, a point on an interior and on a boundary face, inside a
 /// cell, a corner of the bounding box, in the plane of many faces, a trillionth and a billion box sizes away, and along
-/// each axis in parallel projection.
-std::vector<NamedView> hard_views(const Scene& scene, glm::ivec2 size);
+/// each axis in parallel projection. `up` as above.
+std::vector<NamedView> hard_views(const Scene& scene, glm::ivec2 size,
+                                  const std::optional<glm::dvec3>& up = std::nullopt);
 
 } // namespace visorder::scenes

@@ -1,5 +1,6 @@
 #include "projection/projector_shaders.h"
 
+#include "projection/blending_image.h"
 #include "projection/integrator_shaders.h"
 #include "projection/packed_place.h"
 #include "projection/silhouette_layout.h"
@@ -57,31 +58,6 @@ void main()
     // Dividing by a power of two is exact, and the viewport multiplies again.
     gl_Position = vec4(triangles[triangle].corners[gl_VertexID - 3 * triangle] / half_range, 0.0, 1.0);
 }
-)";
-
-// Software renderers blend images of one channel far quicker than those of four, whose pixels they mask one by one.
-constexpr const char* result_text = R"(
-#ifdef CHANNELS_APART
-layout(location = 0) out vec4 red;
-layout(location = 1) out vec4 green;
-layout(location = 2) out vec4 blue;
-layout(location = 3) out vec4 opacity;
-
-void put(vec4 light)
-{
-    red = light.rrra;
-    green = light.ggga;
-    blue = light.bbba;
-    opacity = light.aaaa;
-}
-#else
-layout(location = 0) out vec4 result;
-
-void put(vec4 light)
-{
-    result = light;
-}
-#endif
 )";
 
 constexpr const char* near_ray_text = R"(
@@ -367,7 +343,7 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
     std::string start = header(integrator, software);
     if (projector == Projector::planes)
         return {start + view_vertex_text + planes_vertex_text,
-                start + result_text + view_text + integrator_shader(integrator) + planes_text};
+                start + BlendingImage::shader_text() + view_text + integrator_shader(integrator) + planes_text};
     const bool in_shader = projector == Projector::thick_gpu;
     const bool passes = integrator == Integrator::exact && !in_shader;
     const SilhouetteLayout layout(integrator, passes);
@@ -375,7 +351,7 @@ ShaderPair triangle_shaders(Projector projector, Integrator integrator, bool per
     start += passes ? "#define PASSES\n" : "";
     start += interpolates_rows(projector, software) ? "#define ROWS\n" : "";
     return {start + (in_shader ? thick_vertex_shader() : layout.vertex_shader()),
-            start + result_text + layout.declarations() +
+            start + BlendingImage::shader_text() + layout.declarations() +
                 (passes ? optical_pass_shader() : integrator_shader(integrator)) + silhouette_text};
 }
 
@@ -384,7 +360,7 @@ ShaderPair near_cell_shaders(Integrator integrator, bool software)
     const std::string optics = needs_optics(integrator) ? optics_shader() : "";
     const bool exact = integrator == Integrator::exact;
     const std::string start = header(integrator, software) + (exact ? "#define EXACT\n" : "");
-    return {start + near_cell_vertex_text, start + result_text + near_ray_text + optics +
+    return {start + near_cell_vertex_text, start + BlendingImage::shader_text() + near_ray_text + optics +
                                                (exact ? exact_shader_in_doubles() : integrator_shader(integrator)) +
                                                near_cell_text};
 }

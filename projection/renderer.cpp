@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -54,40 +53,13 @@ const Scene& checked(const Scene& scene)
     return scene;
 }
 
-// Of the framebuffer, with all channels in one image or each in its own.
-std::vector<GLenum> framebuffer_formats(int bits, bool apart)
-{
-    switch (bits) {
-    case 32:
-        return apart ? std::vector<GLenum>(4, GL_R32F) : std::vector<GLenum>{GL_RGBA32F};
-    case 16:
-        return apart ? std::vector<GLenum>(4, GL_R16F) : std::vector<GLenum>{GL_RGBA16F};
-    case 8:
-        return apart ? std::vector<GLenum>(4, GL_R8) : std::vector<GLenum>{GL_RGBA8};
-    default:
-        throw InputError(fmt::format("blending in {} bits; there are 32, 16 and 8", bits));
-    }
-}
-
 const RenderOptions& checked(const RenderOptions& options)
 {
-    framebuffer_formats(options.blending_bits, false);
+    BlendingImage::check_bits(options.blending_bits);
     if (options.projector == Projector::planes && options.integrator == Integrator::linear)
         throw InputError("the integrator linear interpolates from the thickest point, which the projector planes does "
                          "not have: take silhouette or thick");
     return options;
-}
-
-RasterLattice raster_lattice(const Context& context)
-{
-    // Eight bits are enough, and few renderers have more; the range keeps to what is exact in their fixed numbers.
-    constexpr int most_bits = 8;
-    constexpr unsigned widest = 16384;
-    const Context::Current current(context);
-    GLint bits = 0;
-    context.gl().GetIntegerv(GL_SUBPIXEL_BITS, &bits);
-    const unsigned width = std::min(static_cast<unsigned>(context.largest_size()), widest);
-    return {1 << std::clamp(bits, 1, most_bits), static_cast<int>(std::bit_floor(width) / 2)};
 }
 
 Program make_program(const Context& context, const char* title, const ShaderPair& shaders)
@@ -188,6 +160,7 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
       options_(checked(options)),
       software_(options.for_software.value_or(context.is_software())),
       lattice_(raster_lattice(context)),
+      image_(context, options.blending_bits, software_),
       near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator, software_))),
       function_(make_textures(context, scene, options)),
       ring_(make_ring(context, ring_segment_bytes)),
@@ -365,25 +338,7 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
 
 void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
 {
-    const GlFunctions& gl = context_->gl();
-    const std::vector<GLenum> formats = framebuffer_formats(options_.blending_bits, software_);
-    if (!framebuffer_ || framebuffer_->size() != screen.size())
-        framebuffer_.emplace(*context_, screen.size(), formats, 0);
-    framebuffer_->bind();
-    // Beyond the image, so that the renderer clips no triangle: it would move its corners.
-    gl.Viewport(screen.centre().x - lattice_.half_range, screen.centre().y - lattice_.half_range,
-                2 * lattice_.half_range, 2 * lattice_.half_range);
-    constexpr std::array<float, 4> clear{};
-    for (std::size_t image = 0; image < formats.size(); ++image)
-        gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(image), clear.data());
-    gl.Disable(GL_DEPTH_TEST);
-    gl.Disable(GL_CULL_FACE);
-    gl.Disable(GL_STENCIL_TEST);
-    gl.Disable(GL_SCISSOR_TEST);
-    gl.Enable(GL_BLEND);
-    gl.BlendEquation(GL_FUNC_ADD);
-    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    gl.ProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
+    image_.start(screen.size(), screen.centre(), lattice_);
 
     near_cell_program_.set("half_range", static_cast<float>(lattice_.half_range));
     near_cell_program_.set("centre", glm::vec2(screen.centre()));
@@ -478,27 +433,9 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
     context_->gl().Finish();
     statistics_.draw_s = watch.lap();
 
-    Image image = read_image();
+    Image image = image_.read();
     context_->check();
     statistics_.read_s = watch.lap();
-    return image;
-}
-
-Image ProjectionRenderer::read_image() const
-{
-    const glm::ivec2 size = framebuffer_->size();
-    Image image{size, {}};
-    image.pixels.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
-    if (!software_) {
-        framebuffer_->read(0, {0, 0}, size, GL_RGBA, GL_FLOAT, image.pixels.data());
-        return image;
-    }
-    std::vector<float> channel(image.pixels.size());
-    for (int i = 0; i < 4; ++i) {
-        framebuffer_->read(static_cast<std::size_t>(i), {0, 0}, size, GL_RED, GL_FLOAT, channel.data());
-        for (std::size_t pixel = 0; pixel < channel.size(); ++pixel)
-            image.pixels[pixel][i] = channel[pixel];
-    }
     return image;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "graphics/framebuffer.h"
 #include "graphics/program.h"
+#include "projection/blending_image.h"
 #include "projection/cell_triangles.h"
 #include "projection/function_textures.h"
 #include "projection/optical_pieces.h"
@@ -78,7 +78,6 @@ private:
     struct Stretch;
 
     Program& triangle_program(const Screen& screen);
-    Image read_image() const;
     void prepare(const Order& order, std::size_t first, const CellTriangles& triangles, Stretch& stretch) const;
     void issue(const Stretch& stretch, const Screen& screen, const CellTriangles& triangles, const Program& program);
     static std::size_t records_a_block(const CellTriangles& triangles);
@@ -99,6 +98,7 @@ private:
     RenderOptions options_;
     bool software_;
     RasterLattice lattice_;
+    BlendingImage image_;
     ScaledScalars scalars_;
     std::vector<std::uint8_t> turned_;                        // of each cell
     std::vector<glm::vec4> optics_;                           // of each point, where the integrator interpolates them
@@ -112,7 +112,6 @@ private:
     int attribute_count_ = 0;
     UploadRing ring_;
     UploadRing rest_ring_;
-    std::optional<Framebuffer> framebuffer_;
     ScreenPoints points_;
     std::vector<std::unique_ptr<Stretch>> stretches_;
     RenderStatistics statistics_;

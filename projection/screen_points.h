@@ -1,5 +1,6 @@
 #pragma once
 
+#include "projection/raster_lattice.h"
 #include "projection/screen.h"
 #include "scene/large_array.h"
 
@@ -9,12 +10,6 @@
 #include <span>
 
 namespace visorder {
-
-/// How the rasteriser of OpenGL places vertices: on a lattice within pixels, up to some distance from the image.
-struct RasterLattice {
-    int steps;      ///< lattice steps a pixel, a power of two
-    int half_range; ///< pixels from the image's centre that a vertex may be away, a power of two
-};
 
 /// What a point of a mesh is on the screen. Bits tell on which sides of the image it is; a cell of which all points
 /// share one of them is not seen.

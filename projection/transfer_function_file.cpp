@@ -5,6 +5,8 @@
 #include "projection/paraview_colour_map.h"
 #include "scene/error.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,16 +22,50 @@ using nlohmann::json;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 constexpr int most_depth = 50; // of arrays and objects within others, which messages are made of by recursion
 
+// With spaces for commas that stand before the end of an array or an object, which the parser does not take.
+void blank_trailing_commas(std::string& content)
+{
+    const std::size_t none = content.size();
+    std::size_t comma = none; // with nothing but spaces and comments since
+    char before = '[';        // the last that is neither, other than that comma
+    for (std::size_t i = 0; i < content.size(); ++i) {
+        const char c = content[i];
+        if (std::isspace(static_cast<unsigned char>(c)) != 0)
+            continue;
+        if (c == '/' && content.compare(i, 2, "//") == 0) {
+            i = std::min(content.find('\n', i), none - 1);
+            continue;
+        }
+        if (c == '/' && content.compare(i, 2, "/*") == 0) {
+            const std::size_t end = content.find("*/", i + 2);
+            i = end == std::string::npos ? none - 1 : end + 1;
+            continue;
+        }
+        if ((c == ']' || c == '}') && comma != none && before != '[' && before != '{')
+            content[comma] = ' ';
+        if (c == ',' && comma == none) {
+            comma = i;
+            continue;
+        }
+        comma = none;
+        before = c;
+        if (c == '"')
+            for (++i; i < content.size() && content[i] != '"'; ++i)
+                i += content[i] == '\\' ? 1 : 0;
+    }
+}
+
 json parse(const std::filesystem::path& file)
 {
-    const std::string content = input_content(file, most_bytes);
+    std::string content = input_content(file, most_bytes);
+    blank_trailing_commas(content);
     const auto check_depth = [](int depth, json::parse_event_t, json&) {
         if (depth > most_depth)
             throw InputError(fmt::format("arrays and objects are nested more than {} deep", most_depth));
         return true;
     };
     try {
-        return json::parse(content, check_depth);
+        return json::parse(content, check_depth, true, true);
     } catch (const json::exception& error) {
         const std::string message = error.what(); // [name of the error] what is wrong
         const std::size_t begin = message.find("] ");
@@ -79,9 +115,10 @@ std::string name_of(const json& map)
                                                                                  : "";
 }
 
-const json& chosen(const json& maps, const std::string& name)
+const json& chosen(const json& maps, const TransferFunctionFileOptions& options)
 {
-    if (maps.size() == 1 && name.empty())
+    const std::string& name = options.map;
+    if ((maps.size() == 1 || options.first_map) && name.empty())
         return maps.front();
     std::vector<std::string> names;
     for (const json& map : maps) {
@@ -100,7 +137,7 @@ TransferFunction transfer_function_of(const json& content, const TransferFunctio
         return own(content);
     if (!content.is_array() || content.empty())
         throw InputError("neither an object with \"points\" nor an array of colour maps");
-    const json& map = chosen(content, options.map);
+    const json& map = chosen(content, options);
     if (!map.is_object())
         throw InputError("a colour map must be an object");
     return transfer_function_of_paraview(map, options);
@@ -118,6 +155,20 @@ TransferFunction read_transfer_function(const std::filesystem::path& file, const
         throw InputError(fmt::format("scalars from {} to {} are no range", spread->lowest, spread->highest));
     try {
         return transfer_function_of(parse(file), options);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+}
+
+std::vector<std::string> colour_map_names(const std::filesystem::path& file)
+{
+    try {
+        const json content = parse(file);
+        std::vector<std::string> names;
+        if (content.is_array())
+            for (const json& map : content)
+                names.push_back(name_of(map));
+        return names;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", file.string(), error.what()));
     }

@@ -100,12 +100,24 @@ glm::dmat4 parallel_to_clip(double half_height, double near, double far, glm::iv
     return glm::orthoRH_NO(-half_width, half_width, -half_height, half_height, near, far);
 }
 
-/// The y axis, or the z axis for a view along it.
-glm::dvec3 upright_for(const glm::dvec3& forward)
+/// The direction that is up in a view along `forward`.
+glm::dvec3 upright_for(const glm::dvec3& forward, const Upright& upright)
 {
+    check_vector("up vector", upright.up);
+    if (largest_component(upright.up) == 0)
+        throw InputError("up vector (0, 0, 0) points nowhere");
+    const glm::dvec3 up = direction_of(upright.up);
+    if (!along(forward, up))
+        return up;
+    if (upright.required)
+        throw InputError(
+            fmt::format("up vector ({}, {}, {}) lies along the view", upright.up.x, upright.up.y, upright.up.z));
     const glm::dvec3 y(0, 1, 0);
     return along(forward, y) ? glm::dvec3(0, 0, 1) : y;
 }
+
+/// How many times as wide as it is high something flat is.
+constexpr double flatness = 4;
 
 /// Beyond a sphere's radius, so that rounding does not clip the points where it touches a clipping plane.
 constexpr double slack = 1.01;
@@ -138,7 +150,15 @@ View view_of(const Camera& camera, glm::ivec2 size)
                      perspective_to_clip(camera.view_angle, camera.near, camera.far, size), to_camera, size);
 }
 
-View look_at(glm::dvec3 position, glm::dvec3 target, double radius, double view_angle, glm::ivec2 size)
+Upright upright_for(const Box& bounds)
+{
+    const glm::dvec3 half = bounds.max * 0.5 - bounds.min * 0.5; // which cannot overflow
+    const bool flat = flatness * half.z <= std::min(half.x, half.y) && half.x > 0 && half.y > 0;
+    return {flat ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), false};
+}
+
+View look_at(glm::dvec3 position, glm::dvec3 target, double radius, double view_angle, glm::ivec2 size,
+             const Upright& upright)
 {
     check_size(size);
     check_vector("camera position", position);
@@ -153,10 +173,10 @@ View look_at(glm::dvec3 position, glm::dvec3 target, double radius, double view_
     const double near = std::max(distance - slack * radius, 1e-4 * beyond);
     const double far = std::max(beyond, near * (1 + 1e-9));
     return make_view(glm::dvec4(position, 1), perspective_to_clip(view_angle, near, far, size),
-                     world_to_camera(position, forward, upright_for(forward)), size);
+                     world_to_camera(position, forward, upright_for(forward, upright)), size);
 }
 
-View parallel(glm::dvec3 towards_viewer, glm::dvec3 target, double radius, glm::ivec2 size)
+View parallel(glm::dvec3 towards_viewer, glm::dvec3 target, double radius, glm::ivec2 size, const Upright& upright)
 {
     check_size(size);
     check_vector("camera direction", towards_viewer);
@@ -168,7 +188,7 @@ View parallel(glm::dvec3 towards_viewer, glm::dvec3 target, double radius, glm::
     const double half_height = radius / std::min(1.0, aspect(size));
     return make_view(glm::dvec4(towards_viewer, 0),
                      parallel_to_clip(half_height, -slack * radius, slack * radius, size),
-                     world_to_camera(target, forward, upright_for(forward)), size);
+                     world_to_camera(target, forward, upright_for(forward, upright)), size);
 }
 
 void validate(const View& view)

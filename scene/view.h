@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/box.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -30,15 +32,26 @@ struct Camera {
 /// view, planes out of order, angle outside (0, 180), a number that is not finite) and for a size below 1 by 1.
 View view_of(const Camera& camera, glm::ivec2 size);
 
-/// Perspective from `position` towards `target`, which must differ; `view_angle` is vertical, in degrees. An up vector
-/// is chosen if the given one lies along the view. Near and far are placed to hold a sphere of `radius` around
-/// `target`.
+/// Which way is up in a picture.
+struct Upright {
+    glm::dvec3 up{0, 1, 0};
+    bool required = false; ///< whether a view along `up` is refused; else the y axis is up in it, or the z axis
+};
+
+/// The z axis for what is flat along it, as terrain is: four times as wide, or more, along x and y each. Else the y
+/// axis.
+Upright upright_for(const Box& bounds);
+
+/// Perspective from `position` towards `target`, which must differ; `view_angle` is vertical, in degrees. Near and far
+/// are placed to hold a sphere of `radius` around `target`. Throws InputError for an `upright` that is no direction, or
+/// is required and lies along the view.
 View look_at(glm::dvec3 position, glm::dvec3 target, double radius, double view_angle = 30,
-             glm::ivec2 size = {512, 512});
+             glm::ivec2 size = {512, 512}, const Upright& upright = {});
 
 /// Parallel projection, the viewer infinitely far in direction `towards_viewer` of `target`; the view holds a sphere of
-/// `radius` around `target`.
-View parallel(glm::dvec3 towards_viewer, glm::dvec3 target, double radius, glm::ivec2 size = {512, 512});
+/// `radius` around `target`. Throws InputError for an `upright` as `look_at` does.
+View parallel(glm::dvec3 towards_viewer, glm::dvec3 target, double radius, glm::ivec2 size = {512, 512},
+              const Upright& upright = {});
 
 /// Throws InputError for an eye that is NaN, infinite, or all zero.
 void validate(const View& view);

@@ -1,6 +1,7 @@
 #include "scene/error.h"
 #include "scene/view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -225,6 +226,59 @@ TEST(View, ValidateRefusesEyesThatAreNoPoint)
     EXPECT_EQ(fault_of({0, -0.0, 0, 0}), "eye (0, -0, 0, 0) is no point");
     EXPECT_EQ(fault_of({0, nan, 0, 1}), "eye (0, nan, 0, 1) is not finite");
     EXPECT_EQ(fault_of({0, 0, 0, infinity}), "eye (0, 0, 0, inf) is not finite");
+}
+
+TEST(View, StandsUprightAsItIsTold)
+{
+    const glm::dvec3 target(1, 2, 3);
+    for (const glm::dvec3& up :
+         {glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(3, 1, -2), glm::dvec3(1e200, 0, 0)})
+        for (const glm::dvec3& towards : directions()) {
+            const glm::dvec3 unit = glm::normalize(up / std::max({std::abs(up.x), std::abs(up.y), std::abs(up.z)}));
+            if (glm::length(glm::cross(unit, glm::normalize(towards))) < 1e-6)
+                continue;
+            for (const View& view : {look_at(target + 9.0 * towards, target, 2, 30, {64, 64}, {up, true}),
+                                     parallel(towards, target, 2, {64, 64}, {up, true})}) {
+                const glm::dvec3 above = projected(view, target + 1e-3 * unit);
+                EXPECT_NEAR(above.x, 0, 1e-9);
+                EXPECT_GT(above.y, 0);
+            }
+        }
+}
+
+TEST(View, RefusesAnUprightAlongTheViewOnlyIfItIsRequired)
+{
+    const auto fault_of = [](const Upright& upright) {
+        const std::string of_parallel = fault([&] { parallel({0, 0, 2}, {0, 0, 0}, 1, {8, 8}, upright); });
+        EXPECT_EQ(of_parallel, fault([&] { look_at({0, 0, 2}, {0, 0, 0}, 1, 30, {8, 8}, upright); }));
+        return of_parallel;
+    };
+    EXPECT_EQ(fault_of({{0, 0, -3}, true}), "up vector (0, 0, -3) lies along the view");
+    EXPECT_EQ(fault_of({{0, 0, -3}, false}), "");
+    EXPECT_EQ(fault_of({{0, 1, -3}, true}), "");
+    EXPECT_EQ(fault_of({{0, 0, 0}, false}), "up vector (0, 0, 0) points nowhere");
+    EXPECT_EQ(fault_of({{0, nan, 0}, false}), "up vector (0, nan, 0) is not finite");
+    // Then y is up, or z where y lies along the view.
+    EXPECT_GT(projected(parallel({0, 0, 1}, {0, 0, 0}, 1, {8, 8}, {{0, 0, 1}, false}), {0, 0.5, 0}).y, 0.4);
+    EXPECT_GT(projected(parallel({0, 1, 0}, {0, 0, 0}, 1, {8, 8}, {{0, 1, 0}, false}), {0, 0, 0.5}).y, 0.4);
+}
+
+TEST(View, HasZUpForWhatIsFlatAlongZ)
+{
+    const auto up_for = [](const glm::dvec3& size) {
+        const Upright upright = upright_for(Box{glm::dvec3(-5), glm::dvec3(-5) + size});
+        EXPECT_FALSE(upright.required);
+        return upright.up;
+    };
+    const glm::dvec3 y(0, 1, 0), z(0, 0, 1);
+    EXPECT_EQ(up_for({8, 9, 1}), z);
+    EXPECT_EQ(up_for({8, 9, 0}), z);
+    EXPECT_EQ(up_for({1, 1, 1}), y);
+    EXPECT_EQ(up_for({9, 1, 1}), y);
+    EXPECT_EQ(up_for({9, 1, 9}), y);
+    EXPECT_EQ(up_for({0, 0, 0}), y);
+    EXPECT_EQ(up_for({9, 0, 0}), y);
+    EXPECT_EQ(upright_for(Box{glm::dvec3(-1.7e308), glm::dvec3(1.7e308, 1.7e308, -1.6e308)}).up, z);
 }
 
 } // namespace
