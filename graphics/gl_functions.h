@@ -46,6 +46,7 @@ namespace visorder {
     X(PFNGLDISABLEPROC, Disable) \
     X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute) \
     X(PFNGLDRAWARRAYSPROC, DrawArrays) \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced) \
     X(PFNGLDRAWELEMENTSPROC, DrawElements) \
     X(PFNGLENABLEPROC, Enable) \
     X(PFNGLENABLEVERTEXARRAYATTRIBPROC, EnableVertexArrayAttrib) \

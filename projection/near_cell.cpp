@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/common.hpp>
 
 namespace visorder {
@@ -48,6 +49,27 @@ std::optional<NearCell> bounded(NearCell cell, const Screen& screen, const std::
 constexpr double infinitely_far = -1e300;
 
 } // namespace
+
+NearCellRecord record_of(const NearCell& cell)
+{
+    NearCellRecord record{};
+    std::size_t next = 0;
+    const auto put = [&](double number) { record[next++] = number; };
+    for (const glm::dvec3& place : cell.places)
+        for (const double coordinate : {place.x, place.y, place.z})
+            put(coordinate);
+    for (const glm::dvec2& value : cell.values) {
+        put(value.x);
+        put(value.y);
+    }
+    put(cell.scalar_range.x);
+    put(cell.scalar_range.y);
+    put(cell.first_depth);
+    put(cell.inverse_distance);
+    for (const int bound : {cell.low.x, cell.low.y, cell.high.x, cell.high.y})
+        put(bound);
+    return record;
+}
 
 std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dvec3, 4>& points,
                                   const std::array<double, 4>& scalars)

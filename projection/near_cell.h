@@ -28,6 +28,10 @@ struct NearCell {
     glm::ivec2 low, high; ///< pixels from the image's centre, high excluded: all that it may cover lie between
 };
 
+/// A NearCell as shaders read it: places, values, scalar range, first depth, inverse distance, low and high.
+using NearCellRecord = std::array<double, 28>;
+NearCellRecord record_of(const NearCell& cell);
+
 /// By the points' positions in space, which may be anywhere. Points stand in the order of their numbers in the mesh.
 /// None for a cell that covers nothing of the image.
 std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dvec3, 4>& points,

@@ -40,6 +40,10 @@ constexpr double most_error = 5e-7;
 // Few rays lie in what takes a smaller part of a cell's scalars: it is as good as a jump.
 constexpr double narrow = 0x1p-10;
 
+// Nearly all rays through a cell meet more than this part of its scalars, which says how well they tell where a jump
+// is.
+constexpr double least_part_met = 0x1p-4;
+
 // What is most within the ways through a cell. `error`: of a scalar.
 struct Density {
     const Piece* first;
@@ -59,8 +63,8 @@ Density density_of(const OpticalPieces& pieces, double lowest, double highest, d
     const Piece* const first = &pieces.at(lowest);
     Density density{first, first, 0, 0};
     const double run = highest - lowest;
-    // A jump is off its place by a part of the way.
-    const double part = run > error ? error / run : 1;
+    // A jump is off its place by a part of the ray segment.
+    const double part = least_part_met * run > error ? error / (least_part_met * run) : 1;
     for (const Piece* piece = first;; ++piece) {
         const double most = most_extinction(*piece, lowest, highest);
         density.last = piece;

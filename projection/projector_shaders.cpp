@@ -218,12 +218,22 @@ void main()
 }
 )";
 
+// Of the records of near cells, see record_of: an instance is one of them.
+constexpr const char* near_cell_record_text = R"(
+layout(std430, binding = 3) readonly buffer NearCells { double numbers[]; };
+const int record_numbers = 28;
+)";
+
 constexpr const char* near_cell_vertex_text = R"(
-uniform vec2 low, high; // pixels from the image's centre
+uniform int first_record;
 uniform float half_range;
+flat out int record; // the place of its first number
 
 void main()
 {
+    record = (first_record + gl_InstanceID) * record_numbers;
+    vec2 low = vec2(numbers[record + 24], numbers[record + 25]); // pixels from the image's centre
+    vec2 high = vec2(numbers[record + 26], numbers[record + 27]);
     vec2 place = vec2((gl_VertexID & 1) == 0 ? low.x : high.x, (gl_VertexID & 2) == 0 ? low.y : high.y);
     gl_Position = vec4(place / half_range, 0.0, 1.0);
 }
@@ -231,11 +241,9 @@ void main()
 
 // See NearCell.
 constexpr const char* near_cell_text = R"(
-uniform dvec3 places[4];
-uniform dvec2 values[4];
-uniform dvec2 scalar_range;
-uniform double first_depth, inverse_depth;
+flat in int record;
 
+dvec2 values[4];
 dvec3 from_ray[4];
 
 double area(int i, int k)
@@ -272,8 +280,13 @@ dvec2 met(int i, int j, int k)
 void main()
 {
     vec2 pixel = gl_FragCoord.xy - centre;
-    for (int i = 0; i < 4; ++i)
-        from_ray[i] = dvec3(places[i].x - pixel.x * places[i].z, places[i].y - pixel.y * places[i].z, places[i].z);
+    for (int i = 0; i < 4; ++i) {
+        dvec3 place = dvec3(numbers[record + 3 * i], numbers[record + 3 * i + 1], numbers[record + 3 * i + 2]);
+        from_ray[i] = dvec3(place.x - pixel.x * place.z, place.y - pixel.y * place.z, place.z);
+        values[i] = dvec2(numbers[record + 12 + 2 * i], numbers[record + 13 + 2 * i]);
+    }
+    dvec2 scalar_range = dvec2(numbers[record + 20], numbers[record + 21]);
+    double first_depth = numbers[record + 22], inverse_depth = numbers[record + 23];
     bool left01 = is_left(0, 1), left02 = is_left(0, 2), left03 = is_left(0, 3);
     bool left12 = is_left(1, 2), left13 = is_left(1, 3), left23 = is_left(2, 3);
     dvec2 one = dvec2(0.0), other = dvec2(0.0);
@@ -360,9 +373,9 @@ ShaderPair near_cell_shaders(Integrator integrator, bool software)
     const std::string optics = needs_optics(integrator) ? optics_shader() : "";
     const bool exact = integrator == Integrator::exact;
     const std::string start = header(integrator, software) + (exact ? "#define EXACT\n" : "");
-    return {start + near_cell_vertex_text, start + BlendingImage::shader_text() + near_ray_text + optics +
-                                               (exact ? exact_shader_in_doubles() : integrator_shader(integrator)) +
-                                               near_cell_text};
+    return {start + near_cell_record_text + near_cell_vertex_text,
+            start + near_cell_record_text + BlendingImage::shader_text() + near_ray_text + optics +
+                (exact ? exact_shader_in_doubles() : integrator_shader(integrator)) + near_cell_text};
 }
 
 } // namespace visorder

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
@@ -35,6 +36,8 @@ constexpr std::size_t rest_segment_bytes = std::size_t{1} << 20;
 
 constexpr std::size_t most_points = std::size_t{1} << 30;
 constexpr GLuint triangles_binding = 1;
+constexpr GLuint near_cells_binding = 3;
+constexpr std::size_t near_segment_records = 4096;
 
 const Scene& checked(const Scene& scene)
 {
@@ -164,7 +167,8 @@ ProjectionRenderer::ProjectionRenderer(const Context& context, const Scene& scen
       near_cell_program_(make_program(context, "near cells", near_cell_shaders(options.integrator, software_))),
       function_(make_textures(context, scene, options)),
       ring_(make_ring(context, ring_segment_bytes)),
-      rest_ring_(make_ring(context, rest_segment_bytes))
+      rest_ring_(make_ring(context, rest_segment_bytes)),
+      near_ring_(make_ring(context, near_segment_records * sizeof(NearCellRecord)))
 {
     const Context::Current current(context);
     scalars_ = scaled_scalars(scene.mesh());
@@ -267,7 +271,7 @@ void ProjectionRenderer::issue(const Stretch& stretch, const Screen& screen, con
                 bind(ring_, stretch.segment, triangles);
         }
         for (const CellApart& cell : apart)
-            draw_near_cell(screen, cell.cell);
+            add_near_cell(screen, cell.cell);
         statistics_.triangles += records.count() * triangles.triangles_a_record();
     }
     ring_.issued(stretch.segment);
@@ -292,7 +296,8 @@ void ProjectionRenderer::draw_records(const Records& records, std::span<const Ce
     const std::size_t end = records.number + records.count;
     for (std::size_t drawn = records.number; drawn < end;) {
         for (; !apart.empty() && apart.front().records_before == drawn; apart = apart.subspan(1))
-            draw_near_cell(screen, apart.front().cell);
+            add_near_cell(screen, apart.front().cell);
+        draw_near_cells();
         const std::size_t next = apart.empty() ? end : std::min<std::size_t>(end, apart.front().records_before);
         program.use();
         gl.BindVertexArray(triangles.vertex_attributes() > 0 ? attributes_.id() : no_attributes_.id());
@@ -302,7 +307,7 @@ void ProjectionRenderer::draw_records(const Records& records, std::span<const Ce
     }
 }
 
-void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
+void ProjectionRenderer::add_near_cell(const Screen& screen, CellId cell)
 {
     const auto v = scene_->mesh().cell(cell);
     const auto& points = scene_->mesh().points;
@@ -323,17 +328,35 @@ void ProjectionRenderer::draw_near_cell(const Screen& screen, CellId cell)
         placed ? near_cell_on_screen(screen, on_screen, scalars) : near_cell(screen, in_space, scalars);
     if (!near)
         return;
-    near_cell_program_.set("places", near->places);
-    near_cell_program_.set("values", near->values);
-    near_cell_program_.set("first_depth", near->first_depth);
-    near_cell_program_.set("inverse_depth", near->inverse_distance);
-    near_cell_program_.set("scalar_range", std::span<const glm::dvec2>(&near->scalar_range, 1));
-    near_cell_program_.set("low", glm::vec2(near->low));
-    near_cell_program_.set("high", glm::vec2(near->high));
-    near_cell_program_.use();
-    context_->gl().BindVertexArray(no_attributes_.id());
-    context_->gl().DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    if (near_segment_ && near_drawn_ + near_pending_ == near_segment_records) {
+        draw_near_cells();
+        near_ring_.issued(*near_segment_);
+        near_segment_.reset();
+    }
+    if (!near_segment_) {
+        near_segment_ = near_ring_.next();
+        near_drawn_ = 0;
+    }
+    const NearCellRecord record = record_of(*near);
+    std::memcpy(near_segment_->memory.data() + (near_drawn_ + near_pending_) * sizeof(record), record.data(),
+                sizeof(record));
+    ++near_pending_;
     ++statistics_.near_cells;
+}
+
+// All that have been added since the last time, in their sequence.
+void ProjectionRenderer::draw_near_cells()
+{
+    if (near_pending_ == 0)
+        return;
+    near_ring_.bind(*near_segment_, near_cells_binding);
+    near_cell_program_.set("first_record", static_cast<int>(near_drawn_));
+    near_cell_program_.use();
+    const GlFunctions& gl = context_->gl();
+    gl.BindVertexArray(no_attributes_.id());
+    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(near_pending_));
+    near_drawn_ += near_pending_;
+    near_pending_ = 0;
 }
 
 void ProjectionRenderer::set_up(const Screen& screen, Program& triangle_program)
@@ -398,6 +421,8 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
                                      scene_->cell_count()));
     const Context::Current current(*context_);
     statistics_ = {};
+    near_segment_.reset();
+    near_pending_ = 0;
     Stopwatch watch;
     const Screen screen(view, scene_->bounds());
     Program& program = triangle_program(screen);
@@ -430,6 +455,10 @@ Image ProjectionRenderer::draw(const View& view, const Order& order)
         }
         group.wait();
     }
+    draw_near_cells();
+    if (near_segment_)
+        near_ring_.issued(*near_segment_);
+    near_segment_.reset();
     context_->gl().Finish();
     statistics_.draw_s = watch.lap();
 

@@ -88,7 +88,8 @@ private:
     };
     void draw_records(const Records& records, std::span<const CellApart>& apart, const Screen& screen,
                       const CellTriangles& triangles, const Program& program);
-    void draw_near_cell(const Screen& screen, CellId cell);
+    void add_near_cell(const Screen& screen, CellId cell);
+    void draw_near_cells();
     void set_up(const Screen& screen, Program& triangle_program);
     void set_up_triangles(Program& program, const Screen& screen) const;
     void set_up_attributes(const CellTriangles& triangles);
@@ -112,6 +113,11 @@ private:
     int attribute_count_ = 0;
     UploadRing ring_;
     UploadRing rest_ring_;
+    // Near cells that stand one after another in the order are drawn at once.
+    UploadRing near_ring_;
+    std::optional<UploadRing::Segment> near_segment_;
+    std::size_t near_drawn_ = 0;   // records of the segment that have been drawn
+    std::size_t near_pending_ = 0; // and those behind them that have not
     ScreenPoints points_;
     std::vector<std::unique_ptr<Stretch>> stretches_;
     RenderStatistics statistics_;
