@@ -3,10 +3,8 @@
 #include "apps/order_file.h"
 #include "apps/scene_source.h"
 #include "apps/view_choice.h"
-#include "checking/direct_relations.h"
-#include "checking/order_checker.h"
-#include "checking/ray_audit.h"
-#include "scene/error.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>

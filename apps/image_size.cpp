@@ -1,6 +1,6 @@
 #include "apps/image_size.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <charconv>
 #include <fmt/format.h>

@@ -1,8 +1,10 @@
 #include "apps/commands.h"
 #include "apps/scene_source.h"
+#include "scene/boundary.h"
+#include "scene/face_planes.h"
 #include "scene/scalar_interval.h"
-#include "scene/scene.h"
-#include "sorting/registry.h"
+#include "visorder/scene.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,8 @@
 #include <vector>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 namespace {
 

@@ -7,8 +7,10 @@
 #include "bench/layer_pictures.h"
 #include "bench/layer_truth.h"
 #include "layering/layers_sorter.h"
-#include "scene/error.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +21,8 @@
 #include <numbers>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 using namespace bench;
 

@@ -1,7 +1,7 @@
 #include "apps/commands.h"
 #include "apps/weld_option.h"
-#include "scene/error.h"
-#include "version.h"
+#include "visorder/error.h"
+#include "visorder/version.h"
 
 #include <algorithm>
 #include <cstdio>

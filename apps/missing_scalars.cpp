@@ -1,7 +1,7 @@
 #include "apps/missing_scalars.h"
 
-#include "scene/error.h"
 #include "scene/scalar_interval.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "apps/output_file.h"
 #include "files/input_content.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +15,8 @@
 #include <string>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 namespace {
 

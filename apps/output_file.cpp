@@ -1,6 +1,6 @@
 #include "apps/output_file.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cerrno>

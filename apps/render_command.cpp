@@ -7,13 +7,14 @@
 #include "apps/sorter_options.h"
 #include "apps/transfer_choice.h"
 #include "apps/view_choice.h"
-#include "bench/image_file.h"
+#include "files/image_file.h"
 #include "graphics/context.h"
-#include "projection/renderer.h"
-#include "projection/surface_renderer.h"
-#include "scene/error.h"
+#include "projection/opengl/renderer.h"
+#include "projection/opengl/surface_renderer.h"
 #include "scene/scalar_interval.h"
-#include "sorting/registry.h"
+#include "visorder/error.h"
+#include "visorder/sorter_options.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +29,7 @@
 
 namespace visorder::apps {
 
-using namespace bench;
+using namespace detail;
 
 namespace {
 
@@ -194,7 +195,7 @@ int run(const Arguments& arguments, SourcedMesh& sourced)
 {
     const bool exr = is_exr(arguments.output);
     render_options(arguments); // before the work
-    const GlPlatform platform = gl_platform(arguments.sorter_options.gl);
+    const GlPlatform platform = arguments.sorter_options.layers.gl;
 
     const bool is_surface = !sourced.mesh.shapes.empty() && sourced.mesh.shapes.front() == CellShape::triangle;
     const bool without_scalars = sourced.mesh.scalars.empty() && !is_surface;

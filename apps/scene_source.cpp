@@ -1,15 +1,17 @@
 #include "apps/scene_source.h"
 
-#include "bench/generated_scene.h"
 #include "files/crowded_faces.h"
-#include "files/read_mesh.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
+#include "scenes/generated_scene.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/read_mesh.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 using namespace scenes;
 

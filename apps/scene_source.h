@@ -2,8 +2,8 @@
 
 #include "apps/weld_option.h"
 #include "files/cell_numbers.h"
-#include "scene/mesh.h"
-#include "scene/scene.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -13,6 +13,8 @@
 #include <vector>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 /// The one mesh that a subcommand works on, as the command line names it.
 struct SceneSource {

@@ -4,8 +4,9 @@
 #include "apps/scene_source.h"
 #include "apps/sorter_options.h"
 #include "apps/view_choice.h"
-#include "scene/error.h"
-#include "sorting/registry.h"
+#include "visorder/error.h"
+#include "visorder/sorter_options.h"
+#include "visorder/sorters.h"
 
 #include <fmt/format.h>
 #include <memory>

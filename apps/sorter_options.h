@@ -1,6 +1,7 @@
 #pragma once
 
-#include "sorting/registry.h"
+#include "visorder/sorter_options.h"
+#include "visorder/sorters.h"
 
 #include <CLI/CLI.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 #include "apps/commands.h"
-#include "sorting/registry.h"
+#include "visorder/sorters.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "apps/transfer_choice.h"
 
 #include "apps/number_check.h"
-#include "projection/transfer_function_file.h"
-#include "scene/error.h"
+#include "files/transfer_function_file.h"
 #include "scene/scalar_interval.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +13,8 @@
 #include <utility>
 
 namespace visorder::apps {
+
+using namespace detail;
 
 namespace {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "apps/scene_source.h"
-#include "projection/transfer_function.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
+#include "visorder/transfer_function.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>

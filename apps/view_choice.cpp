@@ -1,6 +1,6 @@
 #include "apps/view_choice.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/scene.h"
-#include "scene/view.h"
+#include "visorder/scene.h"
+#include "visorder/view.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>

@@ -1,18 +1,18 @@
 #include "bench/comparison.h"
 
-#include "bench/generated_scene.h"
-#include "bench/image_file.h"
-#include "bench/views.h"
-#include "checking/order_checker.h"
-#include "checking/ray_audit.h"
 #include "files/cell_numbers.h"
 #include "files/crowded_faces.h"
-#include "files/read_mesh.h"
-#include "graphics/graphics_error.h"
-#include "scene/error.h"
+#include "files/image_file.h"
+#include "scene/boundary.h"
 #include "scene/stopwatch.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/read_mesh.h"
+#include "visorder/sorter_options.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,6 +25,8 @@
 #include <string_view>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 using namespace scenes;
 
@@ -180,7 +182,7 @@ std::unique_ptr<Frames> make_frames(const Scene& scene, const ComparisonOptions&
         return nullptr;
     }
     try {
-        return std::make_unique<Frames>(scene, gl_platform(options.sorter_options.gl));
+        return std::make_unique<Frames>(scene, options.sorter_options.layers.gl);
     } catch (const InputError& error) {
         description.notes.push_back(fmt::format("no frames: {}", error.what()));
     } catch (const GraphicsError& error) {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "bench/frames.h"
-#include "scene/mesh.h"
-#include "sorting/registry.h"
+#include "visorder/mesh.h"
+#include "visorder/sorter_options.h"
+#include "visorder/sorters.h"
 
 #include <cstddef>
 #include <cstdint>

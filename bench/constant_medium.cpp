@@ -1,7 +1,7 @@
 #include "bench/constant_medium.h"
 
 #include "bench/frames.h"
-#include "checking/ray_caster.h"
+#include "visorder/ray_caster.h"
 
 #include <algorithm>
 #include <cmath>

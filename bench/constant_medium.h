@@ -1,13 +1,15 @@
 #pragma once
 
-#include "bench/views.h"
-#include "projection/renderer.h"
-#include "scene/scene.h"
+#include "projection/opengl/renderer.h"
+#include "scenes/views.h"
+#include "visorder/scene.h"
 
 #include <string>
 #include <vector>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 /// How far the transmittance of a medium that is the same everywhere is from what the lengths of rays through the scene
 /// say: what is missed, hit twice or taken too long or too short by a projector, and nothing else.

@@ -1,10 +1,12 @@
 #include "bench/frames.h"
 
-#include "checking/ray_caster.h"
-#include "scene/error.h"
 #include "scene/stopwatch.h"
+#include "visorder/error.h"
+#include "visorder/ray_caster.h"
 
 namespace visorder::bench {
+
+using namespace detail;
 
 std::vector<MediumPoint> medium_of(const TransferFunction& function)
 {

@@ -1,21 +1,23 @@
 #pragma once
 
 #include "checking/image_errors.h"
-#include "checking/medium_integral.h"
 #include "graphics/context.h"
-#include "projection/renderer.h"
-#include "projection/surface_renderer.h"
-#include "projection/transfer_function.h"
-#include "scene/image.h"
-#include "scene/scene.h"
-#include "scene/view.h"
-#include "sorting/sorter.h"
+#include "optics/medium_integral.h"
+#include "projection/opengl/renderer.h"
+#include "projection/opengl/surface_renderer.h"
+#include "visorder/image.h"
+#include "visorder/scene.h"
+#include "visorder/sorter.h"
+#include "visorder/transfer_function.h"
+#include "visorder/view.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 /// What one integrator makes of a scene, against the reference ray caster.
 struct IntegratorResult {
@@ -45,7 +47,7 @@ public:
     std::vector<IntegratorResult> integrators(const View& view, const Order& order);
 
 private:
-    const Scene& scene_;
+    Scene scene_;
     Context context_;
     TransferFunction function_;
     std::unique_ptr<ProjectionRenderer> renderer_;      // of a volume,

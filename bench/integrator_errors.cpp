@@ -10,12 +10,12 @@
 #include "bench/frames.h"
 #include "bench/volume.h"
 #include "checking/image_errors.h"
-#include "checking/ray_caster.h"
-#include "projection/renderer.h"
-#include "scene/error.h"
+#include "projection/opengl/renderer.h"
 #include "scene/scalar_interval.h"
 #include "scene/stopwatch.h"
-#include "sorting/registry.h"
+#include "visorder/error.h"
+#include "visorder/ray_caster.h"
+#include "visorder/sorters.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -33,6 +33,7 @@
 namespace {
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::bench;
 
 constexpr std::string_view peak_prefix = "peak:";

@@ -1,7 +1,7 @@
 #include "bench/layer_pictures.h"
 
-#include "bench/image_file.h"
 #include "bench/painting.h"
+#include "files/image_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,8 @@
 #include <iterator>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 namespace {
 

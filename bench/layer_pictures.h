@@ -1,12 +1,14 @@
 #pragma once
 
 #include "layering/layers_sorter.h"
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <cstdint>
 #include <filesystem>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 /// Paints the layers of a surface as one view sees them, in colour, what is without proof in grey (after Fig. 3 of
 /// Krishnan, Silva, Wei 2002): layers.png from that view, turned.png from another one, and layer-001.png, ... each

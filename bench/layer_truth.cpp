@@ -1,6 +1,6 @@
 #include "bench/layer_truth.h"
 
-#include "scene/box.h"
+#include "visorder/box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "layering/layer_extraction.h"
-#include "scene/mesh.h"
-#include "scene/view.h"
+#include "visorder/mesh.h"
+#include "visorder/view.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include <vector>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 /// A triangle at a sample point.
 struct TrueFragment {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/image.h"
-#include "scene/mesh.h"
-#include "scene/view.h"
+#include "visorder/image.h"
+#include "visorder/mesh.h"
+#include "visorder/view.h"
 
 #include <glm/vec3.hpp>
 #include <span>

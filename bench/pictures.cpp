@@ -1,13 +1,13 @@
 // Makes the pictures of the README: visorder_pictures FOLDER.
 
-#include "bench/generated_scene.h"
-#include "bench/image_file.h"
 #include "bench/painting.h"
 #include "checking/image_errors.h"
-#include "checking/order_checker.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "files/image_file.h"
+#include "scenes/generated_scene.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/sorters.h"
 
 #include <array>
 #include <exception>
@@ -16,6 +16,7 @@
 namespace {
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::bench;
 using namespace visorder::scenes;
 

@@ -1,8 +1,8 @@
 #include "bench/report.h"
 
 #include "graphics/context.h"
-#include "scene/concurrency.h"
-#include "version.h"
+#include "parallel/concurrency.h"
+#include "visorder/version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 namespace {
 

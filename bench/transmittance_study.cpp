@@ -1,7 +1,7 @@
 #include "bench/constant_medium.h"
-#include "bench/generated_scene.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "scenes/generated_scene.h"
+#include "visorder/mesh.h"
+#include "visorder/sorters.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::bench;
 using namespace visorder::scenes;
 

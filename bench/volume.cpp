@@ -1,14 +1,16 @@
 #include "bench/volume.h"
 
-#include "bench/generated_scene.h"
-#include "files/read_mesh.h"
-#include "scene/error.h"
 #include "scene/scalar_interval.h"
-#include "scene/subdivision.h"
+#include "scenes/generated_scene.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/read_mesh.h"
 
 #include <fmt/format.h>
 
 namespace visorder::bench {
+
+using namespace detail;
 
 using namespace scenes;
 

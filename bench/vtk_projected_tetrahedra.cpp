@@ -11,13 +11,13 @@
 // given.
 
 #include "bench/frames.h"
-#include "bench/image_file.h"
 #include "bench/volume.h"
 #include "checking/image_errors.h"
-#include "checking/ray_caster.h"
+#include "files/image_file.h"
 #include "graphics/context.h"
-#include "projection/renderer.h"
-#include "sorting/registry.h"
+#include "projection/opengl/renderer.h"
+#include "visorder/ray_caster.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <chrono>
@@ -56,6 +56,7 @@ VTK_MODULE_INIT(vtkRenderingVolumeOpenGL2)
 namespace {
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::bench;
 using Clock = std::chrono::steady_clock;
 

@@ -1,6 +1,8 @@
 #include "bsp/boundary_cells.h"
 
-namespace visorder {
+#include "scene/adjacency.h"
+
+namespace visorder::detail {
 
 BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells) : rows_((std::size_t{cells} + 63) / 64)
 {
@@ -19,4 +21,4 @@ BoundaryCells::BoundaryCells(std::span<const CellFace> faces, CellId cells) : ro
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/adjacency.h"
 #include "scene/boundary.h"
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The cells that own the faces of a BSP tree, numbered in their order.
 class BoundaryCells {
@@ -54,4 +55,4 @@ private:
     std::vector<std::uint32_t> of_face_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "bsp/bsp_xmpvo.h"
-#include "scene/concurrency.h"
-#include "sorting/team.h"
+#include "parallel/concurrency.h"
+#include "parallel/team.h"
+#include "scene/adjacency.h"
+#include "scene/face_planes.h"
+#include "scene/face_set.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// One frame of BspXmpvo: lists the cells. A cell's state holds, in the lowest `row` bits, its interior entry faces;
 /// then one bit if it has boundary faces in the tree; above, behind how many of its interior exit faces the cell is not
@@ -335,4 +338,4 @@ private:
     std::atomic<std::size_t> next_look_{0}; // of this step
 };
 
-} // namespace visorder
+} // namespace visorder::detail

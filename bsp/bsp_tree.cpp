@@ -1,5 +1,6 @@
 #include "bsp/bsp_tree.h"
 
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -324,4 +325,4 @@ std::size_t BspTree::bytes() const
            (groups_.capacity() + group_counts_.capacity()) * sizeof(std::uint32_t);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

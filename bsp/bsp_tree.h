@@ -1,9 +1,10 @@
 #pragma once
 
+#include "geometry/exact_predicates.h"
+#include "geometry/unit_planes.h"
+#include "scene/adjacency.h"
 #include "scene/boundary.h"
-#include "scene/exact_predicates.h"
-#include "scene/scene.h"
-#include "scene/unit_planes.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A binary space partition (Fuchs, Kedem, Naylor 1980; Comba et al. 1999) of the relation faces of a scene, which are
 /// its boundary faces where no cells overlap, or of the triangles of a surface. Every inner node has the plane of one
@@ -68,7 +69,7 @@ private:
 
     friend class BspConstruction;
 
-    const Scene& scene_;
+    Scene scene_;
     std::vector<CellFace> faces_;
     std::vector<std::uint32_t> group_counts_;
     std::vector<Node> nodes_; // the root first, children after their parents
@@ -110,4 +111,4 @@ void BspTree::walk(const glm::dvec4& eye, Visit&& visit) const
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,9 @@
 #include "bsp/bsp_xmpvo.h"
 
 #include "bsp/bsp_merge.h"
-#include "sorting/registry.h"
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
+#include "scene/overlap_planes.h"
 #include "sorting/tentative_relations.h"
 
 #include <algorithm>
@@ -14,7 +16,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -231,9 +233,4 @@ std::vector<Statistic> BspXmpvo::statistics() const
             {"exact tests", as_double(tests.exact)},  {"relations", as_double(relation_count_)}};
 }
 
-std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<BspXmpvo>(scene, options.bsp_seed);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

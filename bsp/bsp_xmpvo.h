@@ -4,22 +4,20 @@
 #include "bsp/bsp_tree.h"
 #include "bsp/cover_search.h"
 #include "bsp/image_boxes.h"
+#include "parallel/large_array.h"
 #include "scene/face_planes.h"
-#include "scene/large_array.h"
 #include "sorting/boundary_relations.h"
-#include "sorting/registry.h"
-#include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
+#include "visorder/sorter.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
-#include <memory>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// BSP-XMPVO (Comba, Klosowski, Max, Mitchell, Silva, Williams 1999; Max, Williams, Silva 2000, section III): a
 /// topological sort of the cells over the relations across interior faces, merged with the order in which the walk of a
@@ -65,7 +63,7 @@ private:
     // Where relations run in circles, which the merge cannot tell apart: over all relations.
     void sort_with_cycles(const glm::dvec4& eye, Order& order);
 
-    const Scene& scene_;
+    Scene scene_;
     BspTree tree_;
     BoundaryCells boundary_cells_;
     CoverSearch cover_search_;
@@ -115,6 +113,4 @@ private:
     TopologicalSort topological_sort_;
 };
 
-std::unique_ptr<Sorter> make_bsp_xmpvo(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,5 +1,6 @@
 #include "bsp/corner_heights.h"
 
+#include "scene/adjacency.h"
 #include "scene/face_planes.h"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 #include <immintrin.h>
 #endif
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -89,4 +90,4 @@ Sure CornerHeights::nearer(std::uint32_t f, std::uint32_t g) const
     return no != 0 ? Sure::no : yes != 0 ? Sure::yes : Sure::unknown;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

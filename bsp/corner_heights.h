@@ -1,14 +1,15 @@
 #pragma once
 
 #include "bsp/face_corners.h"
-#include "scene/large_array.h"
-#include "scene/scene.h"
+#include "parallel/large_array.h"
+#include "scene/adjacency.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What single precision can tell for sure.
 enum class Sure { no, yes, unknown };
@@ -56,4 +57,4 @@ private:
     LargeArray<Record> records_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,7 @@
 #include "bsp/cover_search.h"
 
-#include "scene/face_overlap.h"
+#include "geometry/face_overlap.h"
+#include "scene/adjacency.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -196,4 +197,4 @@ std::size_t CoverSearch::bytes() const
            pending_.bytes();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

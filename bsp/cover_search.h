@@ -7,7 +7,8 @@
 #include "bsp/image_boxes.h"
 #include "bsp/pending_faces.h"
 #include "bsp/touching_faces.h"
-#include "scene/scene.h"
+#include "scene/adjacency.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Finds, from one eye after the other, which entry faces a boundary exit face covers: exactly, behind quick tests. Of
 /// those that touch it (see TouchingFaces::holds), all, in one sweep along the boundary; of the others, when asked for,
@@ -72,7 +73,7 @@ private:
     bool covers_exactly(std::uint32_t f, std::uint32_t g, Shared shared, Tests& tests) const;
     void set_boxes(std::uint32_t face, const ProjectionCharts& charts, Ranks ranks);
 
-    const Scene& scene_;
+    Scene scene_;
     std::span<const CellFace> faces_;
     FaceCorners corners_;
     CornerHeights heights_;
@@ -99,4 +100,4 @@ private:
     std::vector<std::uint32_t> end_; // of each face's
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,11 +1,13 @@
 #include "bsp/face_corners.h"
 
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
 
 #include <algorithm>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -62,4 +64,4 @@ SeenFace FaceCorners::seen(std::uint32_t face, const glm::dvec4& eye) const
     return seen;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

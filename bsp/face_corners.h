@@ -1,8 +1,9 @@
 #pragma once
 
+#include "geometry/face_overlap.h"
+#include "scene/adjacency.h"
 #include "scene/boundary.h"
-#include "scene/face_overlap.h"
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <array>
 #include <cstddef>
@@ -14,7 +15,7 @@
 #include <immintrin.h>
 #endif
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The corners of the faces of a BSP tree, without repetitions, by numbers of their own. Immutable.
 class FaceCorners {
@@ -110,4 +111,4 @@ inline FaceCorners::Common FaceCorners::common(const Corners& first, const Corne
 }
 #endif
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -8,7 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -168,4 +168,4 @@ FaceImages::SharedAngle FaceImages::shared_at(std::uint32_t f, std::size_t i, st
     return {Shared::area, begin != 0 && end != 0 ? begin | end : 0};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,15 +1,15 @@
 #pragma once
 
 #include "bsp/face_corners.h"
-#include "scene/box.h"
-#include "sorting/projection_charts.h"
+#include "geometry/projection_charts.h"
+#include "visorder/box.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// How the images of two faces lie, where rounded images tell it for sure.
 enum class Shared { nothing, area, unknown };
@@ -52,4 +52,4 @@ private:
     glm::dvec3 error_{};
 };
 
-} // namespace visorder
+} // namespace visorder::detail

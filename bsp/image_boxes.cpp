@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace visorder {
+namespace visorder::detail {
 
 void ImageBoxes::reset(std::size_t faces, int charts)
 {
@@ -25,4 +25,4 @@ void ImageBoxes::set(std::size_t face, int chart, const Box& box, Ranks ranks)
     image.ranks = ranks;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

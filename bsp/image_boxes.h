@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/box.h"
+#include "visorder/box.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// When the walk of a BSP tree comes to a face first and last: numbers that grow along the walk.
 struct Ranks {
@@ -67,4 +67,4 @@ private:
     std::vector<ImageBox> boxes_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 void PendingFaces::Extent::add(const ImageBoxes::ImageBox& box)
 {
@@ -89,4 +89,4 @@ std::size_t PendingFaces::bytes() const
            size_of(faces_) + size_of(by_depth_);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

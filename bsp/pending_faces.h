@@ -17,7 +17,7 @@
 #include <immintrin.h>
 #endif
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Entry faces by where they are in the image and in the walk of a BSP tree, to find those that an exit face may cover:
 /// a grid over each chart, whose squares list their faces farthest first, which is about how they are removed. A face
@@ -297,4 +297,4 @@ inline void PendingFaces::search(std::uint32_t face, Found& found)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

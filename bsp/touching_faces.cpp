@@ -4,7 +4,7 @@
 #include <bit>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -113,4 +113,4 @@ TouchingFaces::TouchingFaces(const FaceCorners& corners, const CornerHeights& he
     touching_.shrink_to_fit();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

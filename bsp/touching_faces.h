@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The pairs of boundary faces with a corner in common of which one may cover the other. On a boundary that is jagged
 /// at the size of a cell, most of what a face covers touches it, and most of what touches it it covers from no eye:
@@ -70,4 +70,4 @@ private:
     std::vector<std::uint32_t> begin_; // of each face's, and the end of the last
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -162,4 +162,4 @@ glm::dvec3 audit_point(const RayTracer& tracer, std::uint64_t seed, std::uint64_
     return is_finite(p) ? p : sampler.in_cell(one);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

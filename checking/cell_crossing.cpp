@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -92,4 +92,4 @@ bool cross(const std::array<SeenVertex, 4>& v, Crossing& crossing)
     return ends[0].depth < ends[1].depth;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

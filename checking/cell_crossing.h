@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A vertex as seen from a ray: x and y are its offsets from the ray, both 0 on it; w says how they change as the ray
 /// moves to the side (by (dx, dy): by -w dx and -w dy).
@@ -28,4 +28,4 @@ struct Crossing {
 /// means of the vertices' depths with weights of one sign: no cancellation, however thin the cell.
 bool cross(const std::array<SeenVertex, 4>& vertices, Crossing& crossing);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "checking/convex_body.h"
 
-#include "scene/exact_predicates.h"
+#include "geometry/exact_predicates.h"
 
 #include <CGAL/Exact_rational.h>
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -240,4 +240,4 @@ glm::dvec3 occlusion_witness(const ConvexBody& front, const ConvexBody& back, co
     return point;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

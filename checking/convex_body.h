@@ -1,13 +1,13 @@
 #pragma once
 
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <array>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A cell as the convex hull of its vertices, and nothing else: no faces, no neighbours, no orientation. What is asked
 /// of it is decided exactly, with `side_of_plane` as the only predicate.
@@ -38,4 +38,4 @@ bool occludes(const ConvexBody& front, const ConvexBody& back, const glm::dvec4&
 /// rounded. The eye's weight may have either sign.
 glm::dvec3 occlusion_witness(const ConvexBody& front, const ConvexBody& back, const glm::dvec4& eye);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -2,7 +2,7 @@
 
 #include "checking/convex_body.h"
 #include "checking/image_boxes.h"
-#include "scene/box_hierarchy.h"
+#include "geometry/box_hierarchy.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -104,4 +104,4 @@ std::vector<Relation> violations_across_sets(const Scene& scene, const glm::dvec
     return all;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

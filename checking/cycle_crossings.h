@@ -1,14 +1,14 @@
 #pragma once
 
-#include "scene/scene.h"
-#include "sorting/relation.h"
+#include "visorder/relation.h"
+#include "visorder/scene.h"
 
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Strongly connected sets of cells under the relations that are known, and the known relations that enter or leave
 /// them. Inner numbering.
@@ -30,4 +30,4 @@ struct SetsAndNeighbours {
 std::vector<Relation> violations_across_sets(const Scene& scene, const glm::dvec4& eye, const SetsAndNeighbours& known,
                                              std::span<const std::uint32_t> positions);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,12 +1,13 @@
-#include "checking/direct_relations.h"
+#include "visorder/checking.h"
 
 #include "checking/convex_body.h"
 #include "checking/image_boxes.h"
 #include "checking/order_positions.h"
 #include "checking/planar_faces.h"
-#include "scene/box_hierarchy.h"
-#include "scene/error.h"
+#include "geometry/box_hierarchy.h"
+#include "parallel/large_array.h"
 #include "sorting/strongly_connected.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 namespace visorder {
+
+using namespace detail;
 
 namespace {
 

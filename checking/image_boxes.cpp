@@ -6,7 +6,7 @@
 #include <limits>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::vector<Box> image_boxes(const Scene& scene, const glm::dvec4& eye)
     return boxes;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

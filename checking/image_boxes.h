@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/box.h"
-#include "scene/scene.h"
+#include "visorder/box.h"
+#include "visorder/scene.h"
 
 #include <glm/vec4.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Boxes of cells in an image that an eye sees, for finding pairs of which one may occlude the other: x and y bound the
 /// cell's projection, z its distances along the direction of view. Rounding errors are bounded and added, so that
@@ -16,4 +16,4 @@ namespace visorder {
 /// Shares nothing with the charts that the sorters search in.
 std::vector<Box> image_boxes(const Scene& scene, const glm::dvec4& eye);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "checking/image_errors.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -81,4 +81,4 @@ Image difference_image(const Image& a, const Image& b, double amplification)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

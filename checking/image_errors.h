@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/image.h"
+#include "visorder/image.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// How far two images are apart, over all four channels of their pixels, which are linear and in [0, 1]: red, green and
 /// blue as seen over black, and alpha, which tells how they would differ over anything else.
@@ -29,4 +29,4 @@ ImageErrors image_errors(const Image& a, const Image& b, std::span<const std::ui
 /// InputError for images of different sizes.
 Image difference_image(const Image& a, const Image& b, double amplification);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "checking/order_positions.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 LargeArray<std::uint32_t> order_positions(const Scene& scene, const Order& order)
 {
@@ -37,4 +37,4 @@ LargeArray<std::uint32_t> order_positions(const Scene& scene, const Order& order
     return positions;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "checking/pixel_rays.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -88,4 +88,4 @@ double PixelRays::depth_at(double px, double py, double normalised_z) const
     return glm::dot(forward_, glm::dvec3(point) / point.w - reference_);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

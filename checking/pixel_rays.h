@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/view.h"
+#include "visorder/view.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A point in coordinates linear in space in which rays are simple, up to a constant: see PixelRays.
 struct SeenPoint {
@@ -58,4 +58,4 @@ private:
     glm::dmat4 clip_to_world_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

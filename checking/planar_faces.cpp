@@ -1,15 +1,16 @@
 #include "checking/planar_faces.h"
 
-#include "scene/error.h"
+#include "geometry/exact_predicates.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "visorder/error.h"
+#include "visorder/scene.h"
 
 #include <atomic>
 #include <limits>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 void require_planar_faces(const Scene& scene)
 {
@@ -41,4 +42,4 @@ void require_planar_faces(const Scene& scene)
         throw CellError(lowest.load(), "a face is not planar; subdivide the mesh into tetrahedra");
 }
 
-} // namespace visorder
+} // namespace visorder::detail

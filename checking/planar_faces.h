@@ -1,11 +1,11 @@
 #pragma once
 
-namespace visorder {
+#include "visorder/scene.h"
 
-class Scene;
+namespace visorder::detail {
 
 /// Throws InputError, naming the lowest cell in the caller's numbering, for a scene of solids with a face that is not
 /// planar: such a cell is no convex body. Exact.
 void require_planar_faces(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

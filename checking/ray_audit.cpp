@@ -1,11 +1,13 @@
-#include "checking/ray_audit.h"
+#include "visorder/checking.h"
 
 #include "checking/audit_rays.h"
 #include "checking/convex_body.h"
 #include "checking/order_positions.h"
 #include "checking/planar_faces.h"
-#include "sorting/relation.h"
+#include "checking/ray_sequence.h"
+#include "parallel/large_array.h"
 #include "sorting/strongly_connected.h"
+#include "visorder/relation.h"
 
 #include <algorithm>
 #include <map>
@@ -16,6 +18,8 @@
 #include <utility>
 
 namespace visorder {
+
+using namespace detail;
 
 namespace {
 
@@ -66,24 +70,21 @@ bool have_no_order(const RayTracer& tracer, CellId a, CellId b)
 
 } // namespace
 
-RayAudit::RayAudit(const Scene& scene, const glm::dvec4& eye, const RayAuditOptions& options)
-    : tracer_((validate(View{eye, glm::dmat4(1), glm::ivec2(1)}), require_planar_faces(scene), scene), eye),
-      through_(options.rays),
-      sequences_(options.rays)
-{
-    oneapi::tbb::parallel_for(std::size_t{0}, options.rays, [&](std::size_t ray) {
-        through_[ray] = audit_point(tracer_, options.seed, ray);
-        tracer_.trace(through_[ray], sequences_[ray]);
-    });
-}
+struct detail::AuditedRays {
+    RayTracer tracer;
+    std::vector<glm::dvec3> through;
+    std::vector<RaySequence> sequences;
+};
+
+namespace {
 
 // Of every cell, the set that it is in, by number; of cells that are in none, a number of their own.
-std::vector<std::uint32_t> RayAudit::sets_without_order(std::span<const std::vector<CellId>> cycles) const
+std::vector<std::uint32_t> sets_without_order(const AuditedRays& rays, std::span<const std::vector<CellId>> cycles)
 {
-    const Scene& scene = tracer_.scene();
+    const Scene& scene = rays.tracer.scene();
     std::vector<Relation> seen;
     // What is behind a cell and not behind what is: the rest follows from that.
-    for (const RaySequence& sequence : sequences_)
+    for (const RaySequence& sequence : rays.sequences)
         for (std::size_t i = 0; i < sequence.cells.size(); ++i) {
             const std::size_t first = sequence.behind[i];
             const std::size_t last = first < sequence.cells.size() ? sequence.behind[first] : first;
@@ -94,7 +95,7 @@ std::vector<std::uint32_t> RayAudit::sets_without_order(std::span<const std::vec
     seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
     std::vector<std::uint8_t> counts(seen.size());
     oneapi::tbb::parallel_for(std::size_t{0}, seen.size(), [&](std::size_t i) {
-        counts[i] = have_no_order(tracer_, seen[i].front, seen[i].back) ? 0 : 1;
+        counts[i] = have_no_order(rays.tracer, seen[i].front, seen[i].back) ? 0 : 1;
     });
 
     std::vector<std::uint32_t> from, to;
@@ -114,16 +115,46 @@ std::vector<std::uint32_t> RayAudit::sets_without_order(std::span<const std::vec
     return strongly_connected_components(graph_of(scene.cell_count(), from, to)).of_node;
 }
 
+} // namespace
+
+RayAudit::RayAudit(const Scene& scene, const glm::dvec4& eye, const RayAuditOptions& options)
+{
+    validate(View{eye, glm::dmat4(1), glm::ivec2(1)});
+    require_planar_faces(scene);
+    auto rays = std::make_shared<AuditedRays>(AuditedRays{RayTracer(scene, eye), std::vector<glm::dvec3>(options.rays),
+                                                          std::vector<RaySequence>(options.rays)});
+    oneapi::tbb::parallel_for(std::size_t{0}, options.rays, [&](std::size_t ray) {
+        rays->through[ray] = audit_point(rays->tracer, options.seed, ray);
+        rays->tracer.trace(rays->through[ray], rays->sequences[ray]);
+    });
+    rays_ = std::move(rays);
+}
+
+std::size_t RayAudit::ray_count() const
+{
+    return rays_->sequences.size();
+}
+
+const RaySequence& RayAudit::sequence(std::size_t ray) const
+{
+    return rays_->sequences[ray];
+}
+
+const glm::dvec3& RayAudit::through(std::size_t ray) const
+{
+    return rays_->through[ray];
+}
+
 RayAuditResult RayAudit::check(const Order& order, std::span<const std::vector<CellId>> cycles,
                                CheckOptions options) const
 {
-    const Scene& scene = tracer_.scene();
+    const Scene& scene = rays_->tracer.scene();
     const LargeArray<std::uint32_t> place = order_positions(scene, order);
     const Findings findings = oneapi::tbb::parallel_reduce(
-        oneapi::tbb::blocked_range<std::size_t>(0, sequences_.size(), 64), Findings{},
+        oneapi::tbb::blocked_range<std::size_t>(0, rays_->sequences.size(), 64), Findings{},
         [&](const auto& range, Findings part) {
             for (std::size_t ray = range.begin(); ray < range.end(); ++ray)
-                look_along(sequences_[ray], ray, place, part);
+                look_along(rays_->sequences[ray], ray, place, part);
             return part;
         },
         [](Findings a, const Findings& b) {
@@ -132,12 +163,12 @@ RayAuditResult RayAudit::check(const Order& order, std::span<const std::vector<C
         });
 
     RayAuditResult result;
-    result.rays = sequences_.size();
+    result.rays = rays_->sequences.size();
     result.pairs = findings.pairs;
     result.overlapping_pairs = findings.overlapping;
     if (findings.wrong.empty())
         return result;
-    const std::vector<std::uint32_t> set_of = sets_without_order(cycles);
+    const std::vector<std::uint32_t> set_of = sets_without_order(*rays_, cycles);
     struct Wrong {
         Violation violation;
         CellId back; // inner
@@ -146,7 +177,7 @@ RayAuditResult RayAudit::check(const Order& order, std::span<const std::vector<C
     std::vector<Wrong> wrong;
     const auto caller = scene.caller_cells();
     for (const auto& [pair, ray] : findings.wrong) {
-        if (have_no_order(tracer_, pair.first, pair.second))
+        if (have_no_order(rays_->tracer, pair.first, pair.second))
             continue;
         if (set_of[pair.first] == set_of[pair.second])
             ++result.violations_in_cycles;
@@ -159,7 +190,7 @@ RayAuditResult RayAudit::check(const Order& order, std::span<const std::vector<C
     });
     wrong.resize(std::min(wrong.size(), options.max_witnesses));
     for (Wrong& w : wrong) {
-        w.violation.witness = tracer_.entry(through_[w.ray], w.back);
+        w.violation.witness = rays_->tracer.entry(rays_->through[w.ray], w.back);
         result.witnesses.push_back(w.violation);
     }
     return result;

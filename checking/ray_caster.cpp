@@ -1,10 +1,11 @@
-#include "checking/ray_caster.h"
+#include "visorder/ray_caster.h"
 
 #include "checking/cell_crossing.h"
 #include "checking/pixel_rays.h"
 #include "checking/silhouettes.h"
-#include "scene/error.h"
-#include "scene/large_array.h"
+#include "optics/medium_integral.h"
+#include "parallel/large_array.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 namespace visorder {
+
+using namespace detail;
 
 namespace {
 

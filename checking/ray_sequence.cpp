@@ -1,6 +1,6 @@
 #include "checking/ray_sequence.h"
 
-#include "scene/exact_predicates.h"
+#include "geometry/exact_predicates.h"
 #include "scene/face_loop.h"
 
 #include <CGAL/Exact_rational.h>
@@ -12,7 +12,7 @@
 #include <limits>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -463,4 +463,4 @@ glm::dvec3 RayTracer::entry(const glm::dvec3& through, CellId cell) const
     return trace.entry();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "scene/box_hierarchy.h"
-#include "scene/scene.h"
+#include "geometry/box_hierarchy.h"
+#include "visorder/scene.h"
 
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The cells whose interior a ray passes through, in the order of where it enters them; inner numbering.
 struct RaySequence {
@@ -42,9 +42,9 @@ public:
     const glm::dvec4& eye() const { return eye_; }
 
 private:
-    const Scene& scene_;
+    Scene scene_;
     glm::dvec4 eye_; // of a weight that is not negative
     BoxHierarchy hierarchy_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

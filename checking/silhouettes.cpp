@@ -1,5 +1,8 @@
 #include "checking/silhouettes.h"
 
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -149,4 +152,4 @@ std::vector<std::uint8_t> silhouette_pixels(const Scene& scene, const View& view
     return marks;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

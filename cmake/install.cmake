@@ -9,18 +9,8 @@ target_link_libraries(visorder PRIVATE $<INSTALL_INTERFACE:mpfr> $<INSTALL_INTER
 install(TARGETS visorder EXPORT visorder-targets)
 install(EXPORT visorder-targets FILE visorderTargets.cmake NAMESPACE visorder:: DESTINATION ${visorder_package_dir})
 
-set(visorder_rooms scene sorting depth mpvo xmpvo bsp graphics layering projection checking files)
-if(VISORDER_WITH_VTK)
-  list(APPEND visorder_rooms vtk)
-endif()
-install(DIRECTORY ${visorder_rooms}
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/visorder
-  FILES_MATCHING PATTERN "*.h")
-install(FILES visorder.h ${PROJECT_BINARY_DIR}/generated/version.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/visorder)
-
-# For programs that take visorder into their build by add_subdirectory.
-configure_file(visorder.h generated/visorder.h COPYONLY)
+install(DIRECTORY include/visorder DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${PROJECT_BINARY_DIR}/generated/visorder/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/visorder)
 
 get_target_property(visorder_library_type visorder TYPE)
 # VTK's components are what its targets are named after.

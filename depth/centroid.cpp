@@ -1,12 +1,13 @@
 #include "depth/centroid.h"
 
 #include "depth/sortable_key.h"
+#include "parallel/large_array.h"
 
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 Centroid::Centroid(const Scene& scene) : scene_(scene)
 {
@@ -38,9 +39,4 @@ void Centroid::sort(const View& view, Order& order)
     radix_sort_.sort(keys_, scene_.caller_cells(), order.back_to_front);
 }
 
-std::unique_ptr<Sorter> make_centroid(const Scene& scene, const SorterOptions&)
-{
-    return std::make_unique<Centroid>(scene);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

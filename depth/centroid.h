@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/radix_sort.h"
-#include "sorting/registry.h"
+#include "parallel/large_array.h"
+#include "parallel/radix_sort.h"
+#include "visorder/sorter.h"
 
 #include <cstdint>
-#include <memory>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Sorts cells by the distance of their centre (the mean of the vertices) from the eye, farthest first; in parallel
 /// views by its depth. What projected tetrahedra and splatting renderers do. Single-precision keys, radix sort, ties in
@@ -22,11 +22,9 @@ public:
     std::size_t bytes() const override { return keys_.capacity() * sizeof(std::uint32_t) + radix_sort_.bytes(); }
 
 private:
-    const Scene& scene_;
+    Scene scene_;
     LargeArray<std::uint32_t> keys_;
     RadixSort<std::uint32_t> radix_sort_;
 };
 
-std::unique_ptr<Sorter> make_centroid(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -9,7 +9,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -286,4 +286,4 @@ bool ImageExtents::sphere_behind(CellId a, CellId b) const
     return parallel_ ? n.z > 1e-13 * length : glm::dot(behind.centre, n) > behind.radius * length * (1 + 1e-14);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "scene/box.h"
-#include "scene/large_array.h"
-#include "scene/scene.h"
+#include "parallel/large_array.h"
+#include "visorder/box.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Where a cell lies in an image plane, and how far behind it, in units of the ranges of all cells in that plane: all
 /// numbers are in [0, 1]. If one cell's `right` is less than another's `left` (or `top` than `bottom`, `far` than
@@ -74,4 +74,4 @@ private:
     LargeArray<Sphere> spheres_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

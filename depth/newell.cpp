@@ -16,7 +16,7 @@
 //
 // Nothing moves in the lists themselves, so that they stay in the order of z, and a search may always end early.
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -301,9 +301,4 @@ std::vector<Statistic> Newell::statistics() const
     return statistics;
 }
 
-std::unique_ptr<Sorter> make_newell(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<Newell>(scene, options.newell_windows);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

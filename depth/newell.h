@@ -3,15 +3,15 @@
 #include "depth/image_extents.h"
 #include "depth/obstruction.h"
 #include "depth/window_lists.h"
-#include "sorting/registry.h"
+#include "parallel/large_array.h"
+#include "visorder/sorter.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Newell's sort (Newell, Newell and Sancha 1972; Newell 1974) for convex cells, as Max, Williams and Silva (2000,
 /// section III) describe it: cells by the z of their farthest vertex, each held against the others for whether it can
@@ -22,7 +22,7 @@ namespace visorder {
 /// Exact where the faces are planar, for solids and for surfaces, which may be any set of cells: they need not meet
 /// face to face, nor meet at all. Takes every scene. Quadratic at worst; with a list for each of several windows of the
 /// image
-/// (`SorterOptions::newell_windows`), cells are held only against those they share a window with.
+/// (`NewellOptions::windows`), cells are held only against those they share a window with.
 ///
 /// Needs no structures, but adjacency and orientations where there are flat cells. One `sort` at a time on one sorter;
 /// any number of sorters on one Scene.
@@ -75,7 +75,7 @@ private:
     void enter_window(Search& search);
     void list_component(CellId first, Order& order);
 
-    const Scene& scene_;
+    Scene scene_;
     bool windows_;
     Obstruction obstruction_;
     ImageExtents extents_;
@@ -93,6 +93,4 @@ private:
     std::array<std::size_t, counts> count_{};
 };
 
-std::unique_ptr<Sorter> make_newell(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

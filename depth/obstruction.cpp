@@ -1,8 +1,10 @@
 #include "depth/obstruction.h"
 
-#include "scene/exact_predicates.h"
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
 #include "scene/face_planes.h"
 #include "scene/orientations.h"
+#include "scene/seen_face.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +15,7 @@
 #include <span>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -229,4 +231,4 @@ bool Obstruction::obstructs_beside_flat(CellId front, CellId back) const
     return false;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

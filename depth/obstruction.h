@@ -1,15 +1,16 @@
 #pragma once
 
+#include "geometry/exact_predicates.h"
+#include "geometry/face_overlap.h"
+#include "parallel/large_array.h"
 #include "scene/face_loop.h"
-#include "scene/face_overlap.h"
-#include "scene/large_array.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What settles whether a cell can obscure part of another.
 enum class Settled {
@@ -78,7 +79,7 @@ private:
     Settled definitive(CellId front, CellId back) const;
     bool obstructs_beside_flat(CellId front, CellId back) const;
 
-    const Scene& scene_;
+    Scene scene_;
     int row_length_;
     bool planar_ = true;
     LargeArray<FaceTriple> triples_; // of each face, counterclockwise from outside; a vertex thrice if there is none
@@ -87,4 +88,4 @@ private:
     glm::dvec4 eye_{};
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,12 +1,13 @@
 #include "depth/power.h"
 
 #include "depth/sortable_key.h"
+#include "scene/circumspheres.h"
 
 #include <glm/geometric.hpp>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 Power::Power(const Scene& scene) : scene_(scene)
 {
@@ -35,9 +36,4 @@ void Power::sort(const View& view, Order& order)
     radix_sort_.sort(keys_, scene_.caller_cells(), order.back_to_front);
 }
 
-std::unique_ptr<Sorter> make_power(const Scene& scene, const SorterOptions&)
-{
-    return std::make_unique<Power>(scene);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

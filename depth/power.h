@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/radix_sort.h"
-#include "sorting/registry.h"
+#include "parallel/large_array.h"
+#include "parallel/radix_sort.h"
+#include "visorder/sorter.h"
 
 #include <cstdint>
-#include <memory>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Sorts cells by the power of the eye with respect to their circumspheres, greatest first (Edelsbrunner 1989; Max,
 /// Williams, Silva 2000, section III). In exact arithmetic this is a visibility order of a Delaunay tetrahedralisation
@@ -24,11 +24,9 @@ public:
     std::size_t bytes() const override { return keys_.capacity() * sizeof(std::uint64_t) + radix_sort_.bytes(); }
 
 private:
-    const Scene& scene_;
+    Scene scene_;
     LargeArray<std::uint64_t> keys_;
     RadixSort<std::uint64_t> radix_sort_;
 };
 
-std::unique_ptr<Sorter> make_power(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

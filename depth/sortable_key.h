@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Unsigned keys that ascend where the numbers descend: sorted by them, the greatest number comes first.
 inline std::uint32_t descending_key(float x)
@@ -20,4 +20,4 @@ inline std::uint64_t descending_key(double x)
     return ~ascending;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

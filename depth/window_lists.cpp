@@ -1,8 +1,10 @@
 #include "depth/window_lists.h"
 
+#include "parallel/large_array.h"
+
 #include <oneapi/tbb/parallel_sort.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 void WindowLists::Columns::resize(std::size_t size)
 {
@@ -59,4 +61,4 @@ void WindowLists::distribute(std::uint32_t planes)
     begin_.pop_back();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

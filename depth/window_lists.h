@@ -1,6 +1,7 @@
 #pragma once
 
 #include "depth/image_extents.h"
+#include "parallel/large_array.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Lists of cells by the z of their farthest vertex, farthest first: one for each of several windows that divide each
 /// image plane, of the cells whose extents meet it (Max, Williams and Silva 2000, section III, after Williams, Max and
@@ -107,4 +108,4 @@ private:
     std::vector<std::size_t> begin_; // of each list in listed_, and their end
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "files/array_choice.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -125,4 +125,4 @@ ScalarMap scalar_map_of(std::span<const double> values)
     return {lowest / 2 + highest / 2, half > 0 ? half : 1};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

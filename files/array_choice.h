@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The array of that name, of points rather than of cells if both have it; for an empty name the one that
 /// `ReadOptions::scalar` tells of, the grid's default counting as active if it varies; null if there is none. Throws
@@ -22,4 +22,4 @@ ArraySummary summary_of(const FileArray& array);
 /// finite ones do not count.
 ScalarMap scalar_map_of(std::span<const double> values);
 
-} // namespace visorder
+} // namespace visorder::detail

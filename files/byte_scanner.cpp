@@ -1,10 +1,10 @@
 #include "files/byte_scanner.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 void ByteScanner::fail(const std::string& what) const
 {
@@ -17,4 +17,4 @@ void ByteScanner::expect_room(std::uint64_t count, std::size_t bytes_each, const
         fail(fmt::format("{} {} are more than the rest of the file has room for", count, what));
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Reads numbers off a binary file, of either byte order. All that fails throws InputError, naming file and byte.
 class ByteScanner {
@@ -56,4 +56,4 @@ private:
     std::size_t at_ = 0;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

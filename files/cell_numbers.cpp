@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 CellNumbers::CellNumbers(std::vector<std::uint64_t> file_cells, std::vector<MeshBlock> blocks)
     : file_cells_(std::move(file_cells)),
@@ -89,4 +89,4 @@ CellNumbers cell_numbers(const MeshFile& file, std::span<const CellId> cell_of)
     return {std::move(of_parts), file.blocks};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "files/mesh_file.h"
-#include "scene/error.h"
+#include "visorder/error.h"
+#include "visorder/read_mesh.h"
 
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What the cells of a mesh are called outside of the program, in orders and in messages: by the numbers that they have
 /// in their file, or, where several cells are parts of one of the file's, by their own, with the map from these to the
@@ -60,4 +60,4 @@ CellNumbers cell_numbers(const MeshFile& file);
 /// Of the cells of a subdivision of that mesh.
 CellNumbers cell_numbers(const MeshFile& file, std::span<const CellId> cell_of);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -2,13 +2,13 @@
 
 #include "files/convex_hull.h"
 
-#include "scene/exact_predicates.h"
+#include "geometry/exact_predicates.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -135,4 +135,4 @@ PolyhedronFaces convex_hull(std::span<const PointId> some, std::span<const glm::
     return HullOfPoints(std::move(ids), points).faces();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

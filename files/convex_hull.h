@@ -2,7 +2,7 @@
 
 #include "files/polyhedron.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The most points that `convex_hull` takes.
 inline constexpr std::size_t max_hull_points = 64;
@@ -12,4 +12,4 @@ inline constexpr std::size_t max_hull_points = 64;
 /// points lie in one plane. At most `max_hull_points`, with finite coordinates.
 PolyhedronFaces convex_hull(std::span<const PointId> some, std::span<const glm::dvec3> points);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,11 +1,13 @@
 #include "files/crowded_faces.h"
 
+#include "scene/adjacency.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 std::string crowded_faces_note(const Scene& scene, const CellNumbers& cells)
 {
@@ -32,4 +34,4 @@ std::string crowded_faces_note(const Scene& scene, const CellNumbers& cells)
                        crowded.size() == 1 ? "" : fmt::format(", as do others at {} faces more", crowded.size() - 1));
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,7 @@
 #include "files/file_content.h"
 
 #include "files/mapped_file.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <limits>
 #include <zlib.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::string decompressed(const std::filesystem::path& path, std::string_view gzi
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The bytes of a regular file. Throws InputError, naming it, where it cannot be read.
 std::string content_of_file(const std::filesystem::path& path);
@@ -13,4 +13,4 @@ std::string content_of_file(const std::filesystem::path& path);
 /// and 50 times as much as the bytes given. Throws InputError, naming the file.
 std::string decompressed(const std::filesystem::path& path, std::string_view gzip);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,14 +6,14 @@
 #include "files/polygon.h"
 #include "files/polyhedron.h"
 #include "files/unused_points.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -407,4 +407,4 @@ MeshFile mesh_of(FileGrid&& grid, const ReadOptions& options)
     return GridConversion(std::move(grid), options).run();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "files/mesh_file.h"
+#include "visorder/read_mesh.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a file lists as a cell. Corners stand in VTK's order of the shape.
 enum class ListedShape : std::uint8_t {
@@ -83,4 +83,4 @@ struct FileGrid {
 /// be taken, and where there is no array of the name asked for.
 MeshFile mesh_of(FileGrid&& grid, const ReadOptions& options);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -81,4 +81,4 @@ void reorder_gmsh_corners(ListedShape shape, std::span<std::int64_t> corners)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

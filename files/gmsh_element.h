@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// An element type of Gmsh's files.
 struct GmshElement {
@@ -19,4 +19,4 @@ std::optional<GmshElement> gmsh_element(std::int64_t type);
 /// The corners of an element, given in Gmsh's order, in VTK's.
 void reorder_gmsh_corners(ListedShape shape, std::span<std::int64_t> corners);
 
-} // namespace visorder
+} // namespace visorder::detail

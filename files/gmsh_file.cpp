@@ -6,7 +6,7 @@
 #include "files/gmsh_input.h"
 #include "files/printable.h"
 #include "files/time_step.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <memory>
 #include <unordered_map>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -340,4 +340,4 @@ FileGrid read_gmsh_file(const std::filesystem::path& path, std::string_view cont
     return GmshParser(path, content).run(time);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

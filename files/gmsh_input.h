@@ -5,7 +5,7 @@
 
 #include <bit>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Reads the numbers of a Gmsh file, whose sections are all in text or all in binary, and finds its sections.
 class GmshInput {
@@ -83,4 +83,4 @@ private:
     bool in_bytes_ = false;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

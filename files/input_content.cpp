@@ -1,6 +1,6 @@
 #include "files/input_content.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string input_content(const std::filesystem::path& path, std::uint64_t most_
     return content;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

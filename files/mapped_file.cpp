@@ -1,6 +1,6 @@
 #include "files/mapped_file.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <cerrno>
 #include <fcntl.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <unistd.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 MappedFile::MappedFile(const std::filesystem::path& path)
 {
@@ -37,4 +37,4 @@ MappedFile::~MappedFile()
         munmap(data_, size_);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

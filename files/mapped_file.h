@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The content of a regular file, mapped into memory as long as this lives.
 class MappedFile {
@@ -22,4 +22,4 @@ private:
     std::size_t size_ = 0;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

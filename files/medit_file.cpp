@@ -4,13 +4,13 @@
 
 #include "files/printable.h"
 #include "files/text_scanner.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -143,4 +143,4 @@ FileGrid read_medit_binary_file(const std::filesystem::path& path, std::string_v
     throw InputError(fmt::format("{}: a MEDIT mesh in binary is not read; one in text (.mesh) is", path.string()));
 }
 
-} // namespace visorder
+} // namespace visorder::detail

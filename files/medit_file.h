@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The cells of a MEDIT mesh in text (.mesh). Throws InputError, naming the file and the line.
 FileGrid read_medit_file(const std::filesystem::path& path, std::string_view content);
@@ -12,4 +12,4 @@ FileGrid read_medit_file(const std::filesystem::path& path, std::string_view con
 /// Refuses MEDIT's binary meshes (.meshb).
 FileGrid read_medit_binary_file(const std::filesystem::path& path, std::string_view content);
 
-} // namespace visorder
+} // namespace visorder::detail

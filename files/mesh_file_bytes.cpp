@@ -1,12 +1,12 @@
 #include "files/mesh_file_bytes.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <glm/vec3.hpp>
 #include <type_traits>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -252,4 +252,4 @@ ReadResult read_result(const ReadBytes& read, std::uint64_t most_bytes)
     return std::move(fields.error);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

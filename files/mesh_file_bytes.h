@@ -1,6 +1,6 @@
 #pragma once
 
-#include "files/mesh_file.h"
+#include "visorder/read_mesh.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 // What passes between a program that reads a mesh and the process that does it for it (see reader_process.h), as bytes
 // of this machine's layout. The fields of each struct are listed once, in mesh_file_bytes.cpp.
@@ -39,4 +39,4 @@ ReadRequest read_request(const ReadBytes& read);
 void write_result(ReadResult&& result, const WriteBytes& write);
 ReadResult read_result(const ReadBytes& read, std::uint64_t most_bytes);
 
-} // namespace visorder
+} // namespace visorder::detail

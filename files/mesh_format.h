@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A format that meshes are read from. Readers throw InputError, naming the file.
 struct MeshFormat {
@@ -22,4 +22,4 @@ struct MeshFormat {
 /// The formats that VTK reads: defined in vtk/, and so only in a build with VTK.
 std::span<const MeshFormat> vtk_formats();
 
-} // namespace visorder
+} // namespace visorder::detail

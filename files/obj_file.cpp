@@ -1,7 +1,7 @@
 #include "files/obj_file.h"
 
 #include "files/printable.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <span>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -155,4 +155,4 @@ FileGrid read_obj_file(const std::filesystem::path& path, std::string_view conte
     return ObjParser(path).run(content);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

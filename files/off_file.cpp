@@ -9,7 +9,7 @@
 #include <bit>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -125,4 +125,4 @@ FileGrid read_off_file(const std::filesystem::path& path, std::string_view conte
     return grid;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

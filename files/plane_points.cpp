@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -85,4 +85,4 @@ bool PlanePoints::any_in(const glm::dvec2& a, const glm::dvec2& b, const glm::dv
     return false;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

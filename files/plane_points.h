@@ -4,7 +4,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Twice the signed area of a triangle in the plane, positive if its corners stand counterclockwise.
 inline double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
@@ -44,4 +44,4 @@ private:
     std::vector<Node> nodes_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 #include "files/file_content.h"
 #include "files/plot3d_layout.h"
 #include "files/structured_cells.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -116,4 +116,4 @@ FileGrid read_plot3d_file(const std::filesystem::path& path, std::string_view co
     return grid;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -11,7 +11,7 @@
 #include <charconv>
 #include <cstring>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -301,4 +301,4 @@ std::optional<Plot3dZones> find_plot3d_zones(const std::filesystem::path& path, 
     return is_text(content) ? find_text(path, content, kind, axes) : find_binary(content, kind, axes);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Plot3D's files of grids and of solutions on them differ in how many numbers they have before the points of a grid,
 /// and for each point.
@@ -38,4 +38,4 @@ struct Plot3dZones {
 std::optional<Plot3dZones> find_plot3d_zones(const std::filesystem::path& path, std::string_view content,
                                              Plot3dContent kind, int axes);
 
-} // namespace visorder
+} // namespace visorder::detail

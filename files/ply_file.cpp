@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <memory>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -238,4 +238,4 @@ FileGrid read_ply_file(const std::filesystem::path& path, std::string_view conte
     return PlyContent(path, header, BinaryNumbers(path, content, header)).run();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -7,7 +7,7 @@
 #include <array>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -108,4 +108,4 @@ PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view co
     return header;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -36,4 +36,4 @@ struct PlyHeader {
 /// Throws InputError, naming the file and the line.
 PlyHeader read_ply_header(const std::filesystem::path& path, std::string_view content);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "files/point_joining.h"
 
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -111,4 +111,4 @@ JoinedPoints join_all(std::span<const glm::dvec3> points, double tolerance)
     return joined;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "scene/cell_shape.h"
+#include "visorder/mesh.h"
 
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Which points of a file become one.
 struct JoinedPoints {
@@ -23,4 +23,4 @@ JoinedPoints join_pieces(std::span<const glm::dvec3> points, std::span<const std
 /// Joins all points with exactly equal coordinates, or within that distance, as `weld` does.
 JoinedPoints join_all(std::span<const glm::dvec3> points, double tolerance = 0);
 
-} // namespace visorder
+} // namespace visorder::detail

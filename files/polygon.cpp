@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <set>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::vector<std::array<PointId, 3>> triangles_of(std::span<const PointId> polygo
     return triangles;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -131,4 +131,4 @@ double sixfold_volume(const TetrahedronCorners& corners, std::span<const glm::dv
     return glm::dot(glm::cross(points[corners[1]] - origin, points[corners[2]] - origin), points[corners[3]] - origin);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "scene/cell_shape.h"
+#include "visorder/mesh.h"
 
 #include <array>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The faces of a solid: polygons of three corners or more, in their order around each.
 struct PolyhedronFaces {
@@ -48,4 +48,4 @@ void cut_into_tetrahedra(const PolyhedronFaces& faces, std::vector<TetrahedronCo
 /// The six-fold signed volume, positive in VTK's order, rounded.
 double sixfold_volume(const TetrahedronCorners& corners, std::span<const glm::dvec3> points);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace visorder {
+namespace visorder::detail {
 
 std::string printable(std::string_view text)
 {
@@ -13,4 +13,4 @@ std::string printable(std::string_view text)
     return text.size() > longest ? line + "..." : line;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

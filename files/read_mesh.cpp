@@ -1,4 +1,4 @@
-#include "files/read_mesh.h"
+#include "visorder/read_mesh.h"
 
 #include "files/cell_numbers.h"
 #include "files/file_content.h"
@@ -13,7 +13,7 @@
 #include "files/reader_process.h"
 #include "files/stl_file.h"
 #include "files/time_step.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -29,6 +29,8 @@
 #include <unistd.h>
 
 namespace visorder {
+
+using namespace detail;
 
 namespace {
 

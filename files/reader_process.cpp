@@ -2,7 +2,7 @@
 
 #include "files/mesh_file_bytes.h"
 #include "reader_folders.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -283,4 +283,4 @@ MeshFile read_in_own_process(const std::filesystem::path& file, const ReadOption
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "files/mesh_file.h"
+#include "visorder/read_mesh.h"
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
 
-namespace visorder {
+namespace visorder::detail {
 
 // Readers that are not ours may crash on a damaged file, run without end, or ask for any amount of memory. They run in
 // a process of their own, of the program visorder-read, with limits on time and memory; arrays come back through a
@@ -33,4 +33,4 @@ MeshFile read_in_own_process(const std::filesystem::path& file, const ReadOption
 MeshFile read_in_own_process(const std::filesystem::path& file, const ReadOptions& options,
                              const ReadingLimits& limits);
 
-} // namespace visorder
+} // namespace visorder::detail

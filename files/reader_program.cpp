@@ -2,8 +2,8 @@
 // after one byte that says that the program has started, from standard output (see files/reader_process.h).
 
 #include "files/mesh_file_bytes.h"
-#include "files/read_mesh.h"
-#include "scene/error.h"
+#include "visorder/error.h"
+#include "visorder/read_mesh.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -23,6 +23,7 @@
 namespace {
 
 using namespace visorder;
+using namespace visorder::detail;
 
 void read_from(int file, std::span<std::byte> bytes)
 {

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <numeric>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -142,4 +142,4 @@ FileGrid read_stl_file(const std::filesystem::path& path, std::string_view conte
     return grid;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace visorder {
+namespace visorder::detail {
 
 void add_structured_cells(FileGrid& grid, const glm::ivec3& size, std::size_t first_point,
                           const std::function<bool(std::size_t point)>& is_hidden)
@@ -45,4 +45,4 @@ void add_structured_cells(FileGrid& grid, const glm::ivec3& size, std::size_t fi
             }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,7 @@
 #include "files/text_scanner.h"
 
 #include "files/printable.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <limits>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -171,4 +171,4 @@ void TextScanner::skip_to(std::size_t position)
             ++line_;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

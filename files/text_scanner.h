@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Reads a text file word by word or line by line, and knows at which line it is. Words are what stands between blanks;
 /// lines end in LF, CR LF or CR. A UTF-8 byte order mark at the beginning is passed over. What begins with the comment
@@ -60,4 +60,4 @@ private:
     std::size_t line_ = 1;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

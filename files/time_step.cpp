@@ -1,13 +1,13 @@
 #include "files/time_step.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::size_t choose_time_step(const std::filesystem::path& path, std::span<const 
     return *step;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

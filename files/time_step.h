@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Which of a file's time steps is wanted: "first", "last" or nothing (the last), "index:N" counted from 0, or a time.
 /// Of several steps of one time the first. Adds a note that tells which, if there are several. 0 for a file without
@@ -14,4 +14,4 @@ namespace visorder {
 std::size_t choose_time_step(const std::filesystem::path& path, std::span<const double> times,
                              const std::string& wanted, std::vector<std::string>& notes);
 
-} // namespace visorder
+} // namespace visorder::detail

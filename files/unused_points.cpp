@@ -1,6 +1,6 @@
 #include "files/unused_points.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 std::size_t drop_unused_points(Mesh& mesh)
 {
@@ -27,4 +27,4 @@ std::size_t drop_unused_points(Mesh& mesh)
     return dropped;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

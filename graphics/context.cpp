@@ -1,14 +1,14 @@
 #include "graphics/context.h"
 
 #include "graphics/platform_context.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -72,27 +72,6 @@ const char* error_name(GLenum error)
 }
 
 } // namespace
-
-const char* name(GlPlatform platform)
-{
-    switch (platform) {
-    case GlPlatform::automatic:
-        return "auto";
-    case GlPlatform::egl:
-        return "egl";
-    case GlPlatform::osmesa:
-        return "osmesa";
-    }
-    return "";
-}
-
-GlPlatform gl_platform(std::string_view wanted)
-{
-    for (GlPlatform platform : {GlPlatform::automatic, GlPlatform::egl, GlPlatform::osmesa})
-        if (wanted == name(platform))
-            return platform;
-    throw InputError(fmt::format("no OpenGL platform \"{}\"; there are: auto, egl, osmesa", wanted));
-}
 
 Context::Context(GlPlatform platform)
     : platform_context_(make_platform_context(platform)), reported_(std::make_unique<std::string>())
@@ -194,4 +173,4 @@ Context::Current::~Current()
         previous_->platform_context_->make_current();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

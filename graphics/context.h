@@ -1,28 +1,16 @@
 #pragma once
 
 #include "graphics/gl_functions.h"
-#include "graphics/graphics_error.h"
+#include "visorder/error.h"
+#include "visorder/gl_platform.h"
 
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <string_view>
 
-namespace visorder {
-
-/// Where an OpenGL context comes from.
-enum class GlPlatform {
-    automatic, ///< `egl`, or `osmesa` where that fails
-    egl,       ///< EGL: a device with hardware when one is there, else Mesa's surfaceless platform
-    osmesa     ///< Mesa's off-screen library: always software
-};
+namespace visorder::detail {
 
 class PlatformContext;
-
-const char* name(GlPlatform platform);
-
-/// The platform of a name: auto, egl, osmesa. Throws InputError for another.
-GlPlatform gl_platform(std::string_view name);
 
 /// A headless OpenGL 4.5 core context, with no window and no default framebuffer to draw in. Any number of them in one
 /// process, of both platforms; each on one thread at a time.
@@ -81,4 +69,4 @@ private:
     mutable std::size_t live_objects_ = 0;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::unique_ptr<PlatformContext> make_egl_context()
                                     vendor == nullptr ? "unknown vendor" : vendor));
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,11 +1,11 @@
 #include "graphics/framebuffer.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -62,4 +62,4 @@ void Framebuffer::read(std::size_t attachment, glm::ivec2 from, glm::ivec2 size,
     gl.ReadPixels(from.x, from.y, size.x, size.y, format, type, into);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Images to draw into: colour attachments and, if wanted, depth or depth and stencil, all of one size. Its context
 /// must be current where it is made and used.
@@ -37,4 +37,4 @@ private:
     GlObject depth_stencil_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

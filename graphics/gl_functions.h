@@ -2,7 +2,7 @@
 
 #include <GL/glcorearb.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 // clang-format off
 /// What is used of the OpenGL 4.5 core profile: type of the pointer, name without "gl".
@@ -116,4 +116,4 @@ struct GlFunctions {
 #undef VISORDER_GL_MEMBER
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "graphics/gl_object.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -82,4 +82,4 @@ void GlObject::reset() noexcept
     id_ = 0;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What OpenGL names by a number.
 enum class GlKind { buffer, framebuffer, program, query, shader, texture, vertex_array };
@@ -42,4 +42,4 @@ private:
     GLuint id_ = 0;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,7 +6,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::unique_ptr<PlatformContext> make_osmesa_context()
     return std::make_unique<OsMesaContext>();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a platform knows of a context: how to make it current on a thread, and where its functions are.
 class PlatformContext {
@@ -25,4 +25,4 @@ public:
 std::unique_ptr<PlatformContext> make_egl_context();
 std::unique_ptr<PlatformContext> make_osmesa_context();
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -123,4 +123,4 @@ void Program::set(const char* uniform, std::span<const glm::dvec3> values)
                                      &values.data()->x);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <unordered_map>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The source of one shader of a program.
 struct ShaderSource {
@@ -53,4 +53,4 @@ private:
     std::unordered_map<std::string, GLint> locations_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

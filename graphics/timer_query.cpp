@@ -1,6 +1,6 @@
 #include "graphics/timer_query.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 TimerQuery::TimerQuery(const Context& context) : context_(&context), query_(context, GlKind::query, GL_TIME_ELAPSED) {}
 
@@ -21,4 +21,4 @@ double TimerQuery::seconds() const
     return 1e-9 * static_cast<double>(nanoseconds);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

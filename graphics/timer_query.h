@@ -2,7 +2,7 @@
 
 #include "graphics/gl_object.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Seconds that the renderer takes for the commands between `begin` and `end`. One runs at a time in a context, which
 /// must be current.
@@ -20,4 +20,4 @@ private:
     GlObject query_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -183,4 +183,4 @@ std::unique_ptr<LayerScan> make_compute_scan(const Context& context)
     return std::make_unique<ComputeScan>(context);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,9 @@
 #include "layering/image_triangles.h"
 
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +12,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -231,4 +233,4 @@ void project(const ItemMesh& items, std::span<const std::uint8_t> wanted, std::s
     result.triangles.resize(kept);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "scene/cell_shape.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <array>
 #include <cstdint>
@@ -11,9 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// What is drawn into an item buffer: items 0 to n-1, each one triangle or two that share a side.
 struct ItemMesh {
@@ -62,4 +61,4 @@ struct ImageTriangles {
 void project(const ItemMesh& items, std::span<const std::uint8_t> wanted, std::span<const glm::dvec3> points,
              const glm::dmat4& world_to_clip, glm::ivec2 size, ImageTriangles& result);
 
-} // namespace visorder
+} // namespace visorder::detail

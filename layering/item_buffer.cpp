@@ -1,13 +1,13 @@
 #include "layering/item_buffer.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
 #include <string>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -261,4 +261,4 @@ std::size_t ItemBuffer::bytes() const
            2 * index_list_.capacity() * sizeof(index_list_[0]);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A rectangle of pixels, its lower left corner first.
 struct PixelRectangle {
@@ -94,4 +94,4 @@ private:
     std::vector<std::uint32_t> index_list_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

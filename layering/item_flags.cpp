@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace visorder {
+namespace visorder::detail {
 
 void ItemFlags::reset(std::uint32_t item_count, std::span<const std::uint32_t> words)
 {
@@ -40,4 +40,4 @@ std::size_t ItemFlags::read(std::vector<std::uint32_t>& words, std::vector<std::
     return content_.size();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

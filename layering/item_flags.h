@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// One bit an item in a buffer of the renderer, and a few words of its own beside them. The words come first, then the
 /// bits of items 0 to 31, and so on. The context must be current.
@@ -33,4 +33,4 @@ private:
     std::vector<std::uint32_t> content_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,14 +1,14 @@
 #include "layering/layer_extraction.h"
 
-#include "scene/error.h"
 #include "scene/stopwatch.h"
 #include "sorting/strongly_connected.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -245,4 +245,4 @@ std::size_t LayerExtraction::bytes() const
            size_of(triangles_.begin) + size_of(rest_) + size_of(candidates_) + size_of(covered_) + size_of(kept_);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

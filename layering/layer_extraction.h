@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Why an item has no proof of its place.
 enum class WithoutProof : std::uint8_t {
@@ -93,4 +93,4 @@ private:
     std::vector<std::uint32_t> kept_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

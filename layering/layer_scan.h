@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a frame took, as in the paper's Fig. 2. Flags are words of 32 bits, read instead of pixels by the scan on the
 /// renderer.
@@ -64,4 +64,4 @@ std::unique_ptr<LayerScan> make_readback_scan(int block);
 /// Scans by compute shaders. One flag an item is read back.
 std::unique_ptr<LayerScan> make_compute_scan(const Context& context);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,12 @@
 #include "layering/layers_sorter.h"
 
-#include "scene/error.h"
-#include "scene/exact_predicates.h"
-#include "sorting/registry.h"
+#include "geometry/exact_predicates.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -123,22 +122,4 @@ std::vector<Statistic> LayersSorter::statistics() const
             {"rest, s", done.rest_s, done.total_s()}};
 }
 
-std::unique_ptr<Sorter> make_layers(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<LayersSorter>(scene, LayerVariant::naive, gl_platform(options.gl), options.layer_size,
-                                          options.layer_block);
-}
-
-std::unique_ptr<Sorter> make_layers_blocked(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<LayersSorter>(scene, LayerVariant::blocked, gl_platform(options.gl), options.layer_size,
-                                          options.layer_block);
-}
-
-std::unique_ptr<Sorter> make_layers_compute(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<LayersSorter>(scene, LayerVariant::compute, gl_platform(options.gl), options.layer_size,
-                                          options.layer_block);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,14 +1,13 @@
 #pragma once
 
 #include "layering/layer_extraction.h"
-#include "scene/scene.h"
-#include "sorting/registry.h"
-#include "sorting/sorter.h"
+#include "visorder/scene.h"
+#include "visorder/sorter.h"
 
 #include <memory>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The layers of a surface scene's triangles as a sorter (Krishnan, Silva, Wei 2002): the farthest layer first. Looks
 /// through `world_to_clip`, at one sample point a pixel, and is right at these points; what happens between them it
@@ -35,7 +34,7 @@ public:
 private:
     void write(const View& view, Order& order) const;
 
-    const Scene& scene_;
+    Scene scene_;
     ItemMesh items_;
     glm::ivec2 size_;
     Context context_;
@@ -44,8 +43,4 @@ private:
     Layers layers_;
 };
 
-std::unique_ptr<Sorter> make_layers(const Scene& scene, const SorterOptions& options);
-std::unique_ptr<Sorter> make_layers_blocked(const Scene& scene, const SorterOptions& options);
-std::unique_ptr<Sorter> make_layers_compute(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::size_t PixelSequences::bytes() const
            begin_.capacity() * sizeof(begin_[0]);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What covers one pixel at one depth.
 struct Fragment {
@@ -57,4 +57,4 @@ private:
     std::size_t fragment_count_ = 0;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

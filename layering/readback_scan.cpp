@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -241,4 +241,4 @@ std::unique_ptr<LayerScan> make_readback_scan(int block)
     return std::make_unique<ReadbackScan>(block);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,13 @@
 #include "layering/xmpvo_layered.h"
 
-#include "scene/error.h"
-#include "sorting/registry.h"
+#include "geometry/exact_predicates.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <numeric>
 #include <oneapi/tbb/parallel_sort.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -141,9 +141,4 @@ std::vector<Statistic> XmpvoLayered::statistics() const
             {"relations", static_cast<double>(relations_.size())}};
 }
 
-std::unique_ptr<Sorter> make_xmpvo_layered(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<XmpvoLayered>(scene, gl_platform(options.gl), options.layer_size);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,18 +3,16 @@
 #include "layering/layer_scan.h"
 #include "layering/pixel_sequences.h"
 #include "scene/face_planes.h"
-#include "scene/scene.h"
 #include "sorting/face_pairs.h"
-#include "sorting/registry.h"
-#include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
+#include "visorder/scene.h"
+#include "visorder/sorter.h"
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The discretised XMPVO (Krishnan, Silva, Wei 2002, section 4): one ray a pixel. The boundary faces are drawn, and at
 /// each pixel they stand layer behind layer; where a ray leaves the mesh by one layer and comes back by the next, an
@@ -43,7 +41,7 @@ public:
 private:
     PixelRectangle find_pairs(const glm::dmat4& world_to_clip, glm::ivec2 size);
 
-    const Scene& scene_;
+    Scene scene_;
     glm::ivec2 size_;
     ItemMesh items_;
     Context context_;
@@ -60,6 +58,4 @@ private:
     std::size_t deepest_ = 0;
 };
 
-std::unique_ptr<Sorter> make_xmpvo_layered(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

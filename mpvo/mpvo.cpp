@@ -1,8 +1,8 @@
 #include "mpvo/mpvo.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -29,9 +29,4 @@ void Mpvo::sort(const View& view, Order& order)
     topological_sort_.run(scene_, signs_, no_boundary_relations, order);
 }
 
-std::unique_ptr<Sorter> make_mpvo(const Scene& scene, const SorterOptions&)
-{
-    return std::make_unique<Mpvo>(scene);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

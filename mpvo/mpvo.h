@@ -1,12 +1,10 @@
 #pragma once
 
 #include "scene/face_planes.h"
-#include "sorting/registry.h"
 #include "sorting/topological_sort.h"
+#include "visorder/sorter.h"
 
-#include <memory>
-
-namespace visorder {
+namespace visorder::detail {
 
 /// Meshed polyhedra visibility ordering (Williams 1992; Max, Williams, Silva 2000, section III): a topological sort of
 /// the cells over the relations across their interior faces. Linear in cells. Exact on convex meshes; elsewhere
@@ -23,11 +21,9 @@ public:
     std::size_t bytes() const override { return signs_.bytes() + topological_sort_.bytes(); }
 
 private:
-    const Scene& scene_;
+    Scene scene_;
     FaceSigns signs_;
     TopologicalSort topological_sort_;
 };
 
-std::unique_ptr<Sorter> make_mpvo(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

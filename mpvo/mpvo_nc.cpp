@@ -1,7 +1,10 @@
 #include "mpvo/mpvo_nc.h"
 
-#include "scene/error.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
+#include "scene/face_set.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +12,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -209,9 +212,4 @@ std::vector<Statistic> MpvoNc::statistics() const
     return {{"sources", static_cast<double>(source_count_)}};
 }
 
-std::unique_ptr<Sorter> make_mpvo_nc(const Scene& scene, const SorterOptions&)
-{
-    return std::make_unique<MpvoNc>(scene);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,16 +1,15 @@
 #pragma once
 
+#include "parallel/large_array.h"
+#include "parallel/radix_sort.h"
 #include "scene/face_planes.h"
-#include "scene/large_array.h"
-#include "scene/radix_sort.h"
-#include "sorting/registry.h"
 #include "sorting/topological_sort.h"
+#include "visorder/sorter.h"
 
 #include <glm/vec3.hpp>
-#include <memory>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// MPVO for nonconvex meshes (Williams 1992; Max, Williams, Silva 2000, section III): the cells with front-facing
 /// exterior faces, farthest first, are where depth-first traversals start that list a cell after all those it obstructs
@@ -42,7 +41,7 @@ private:
     template <int row, class State>
     void cut_cycles(State* state, const Order& order) const;
 
-    const Scene& scene_;
+    Scene scene_;
     std::vector<CellId> owners_;     // of the boundary faces
     std::vector<glm::vec3> centres_; // of the boundary faces, in the unit coordinates of the face planes
     FaceSigns signs_;
@@ -57,6 +56,4 @@ private:
     Order order_of_cycles_;
 };
 
-std::unique_ptr<Sorter> make_mpvo_nc(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

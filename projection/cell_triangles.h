@@ -1,14 +1,14 @@
 #pragma once
 
 #include "projection/record_sink.h"
-#include "scene/cell_shape.h"
+#include "visorder/mesh.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A cell that no triangles stand for (see VisibleCells), and how many records stand before it.
 struct CellApart {
@@ -33,4 +33,4 @@ public:
     virtual void make(std::span<const CellId> cells, RecordSink& into, std::vector<CellApart>& apart) const = 0;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

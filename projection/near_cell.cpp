@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::optional<NearCell> near_cell_on_screen(const Screen& screen, const std::arr
     return bounded(cell, screen, scalars);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A tetrahedron for which every pixel finds out by itself, in double precision, whether its ray passes through it: one
 /// with a point behind the eye or so close to it, or so far off the image, that it has no place on the rasteriser's
@@ -42,4 +42,4 @@ std::optional<NearCell> near_cell(const Screen& screen, const std::array<glm::dv
 std::optional<NearCell> near_cell_on_screen(const Screen& screen, const std::array<glm::dvec3, 4>& at,
                                             const std::array<double, 4>& scalars);
 
-} // namespace visorder
+} // namespace visorder::detail

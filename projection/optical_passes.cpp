@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -133,4 +133,4 @@ bool looked_up_in_single_precision(const OpticalPieces& pieces, double lowest, d
     return density_of(pieces, lowest, highest, error).single_precision_is_enough(longest);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "projection/optical_pieces.h"
+#include "optics/optical_pieces.h"
 
 #include <glm/vec4.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A part of the ways through a cell on which extinction and colour are linear and optical depth is small: what a
 /// fragment integrates without looking anything up. Scalars are relative to CellWays::reference.
@@ -40,4 +40,4 @@ bool find_optical_passes(const OpticalPieces& pieces, const CellWays& ways, std:
 /// a scalar of the cell: where extinction changes abruptly, it is not.
 bool looked_up_in_single_precision(const OpticalPieces& pieces, double lowest, double highest, double longest);
 
-} // namespace visorder
+} // namespace visorder::detail

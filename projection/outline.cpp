@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -214,4 +214,4 @@ Outline fan_of(const VisibleCell& cell, const glm::dvec2& thickest, const Raster
                                                   : fan_around(quad_of(cell, lattice), middle);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Triangles with their corners on the rasteriser's lattice, in lattice steps, that cover each pixel once.
 class Outline {
@@ -31,4 +31,4 @@ Outline outline_of(const VisibleCell& cell, const RasterLattice& lattice);
 /// narrow gets what outline_of gives it.
 Outline fan_of(const VisibleCell& cell, const glm::dvec2& thickest, const RasterLattice& lattice);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
-#include "projection/projector.h"
+#include "visorder/renderer.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <array>
 #include <fmt/format.h>

@@ -1,16 +1,11 @@
 #pragma once
 
-namespace visorder {
+namespace visorder::detail {
 
-class Context;
-
-/// How the rasteriser of OpenGL places vertices: on a lattice within pixels, up to some distance from the image.
+/// How a rasteriser places vertices: on a lattice within pixels, up to some distance from the image.
 struct RasterLattice {
-    int steps;      ///< lattice steps a pixel, a power of two
+    int steps;      ///< lattice steps per pixel, a power of two
     int half_range; ///< pixels from the image's centre that a vertex may be away, a power of two
 };
 
-/// That of a context.
-RasterLattice raster_lattice(const Context& context);
-
-} // namespace visorder
+} // namespace visorder::detail

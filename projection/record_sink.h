@@ -1,11 +1,11 @@
 #pragma once
 
-#include "scene/large_array.h"
+#include "parallel/large_array.h"
 
 #include <cstddef>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Takes records of one size, one after the other: into memory that it is given, such as the renderer's, and, what is
 /// too much for that, into memory of its own, which it keeps.
@@ -44,4 +44,4 @@ private:
     LargeArray<std::byte> rest_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

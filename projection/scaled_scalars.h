@@ -1,10 +1,10 @@
 #pragma once
 
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The scalars of a mesh's points, shifted and scaled in double precision: 0 to 1 over the scene.
 struct ScaledScalars {
@@ -15,4 +15,4 @@ struct ScaledScalars {
     double operator[](PointId point) const { return (static_cast<double>(given[point]) - lowest) / range; }
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "projection/screen.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -116,4 +116,4 @@ Screen::Anywhere Screen::anywhere(const glm::dvec3& point) const
     return {{glm::dot(x_, from) + constant_.x, glm::dot(y_, from) + constant_.y, perspective_ ? depth : 1}, depth};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

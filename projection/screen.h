@@ -1,13 +1,13 @@
 #pragma once
 
-#include "scene/box.h"
-#include "scene/view.h"
+#include "visorder/box.h"
+#include "visorder/view.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A point as it is seen.
 struct ScreenPoint {
@@ -77,4 +77,4 @@ private:
     bool mirrors_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -59,4 +59,4 @@ void ScreenPoints::place(const Screen& screen, const RasterLattice& lattice, std
     });
 }
 
-} // namespace visorder
+} // namespace visorder::detail

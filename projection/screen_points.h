@@ -1,15 +1,15 @@
 #pragma once
 
+#include "parallel/large_array.h"
 #include "projection/raster_lattice.h"
 #include "projection/screen.h"
-#include "scene/large_array.h"
 
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a point of a mesh is on the screen. Bits tell on which sides of the image it is; a cell of which all points
 /// share one of them is not seen.
@@ -30,4 +30,4 @@ struct ScreenPoints {
     void place(const Screen& screen, const RasterLattice& lattice, std::span<const glm::dvec3> points);
 };
 
-} // namespace visorder
+} // namespace visorder::detail

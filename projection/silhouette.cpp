@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -83,4 +83,4 @@ Silhouette silhouette_of(const std::array<glm::dvec2, 4>& points)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The classes of Shirley and Tuchman 1990 (A polygonal approximation to direct scalar volume rendering), by what the
 /// projection of a tetrahedron looks like.
@@ -39,4 +39,4 @@ struct Silhouette {
 /// the given ones are but for rounding.
 Silhouette silhouette_of(const std::array<glm::dvec2, 4>& points);
 
-} // namespace visorder
+} // namespace visorder::detail

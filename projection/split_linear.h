@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A linear function of whole pixels (x, y), up to `reach` from an origin, as shaders evaluate it where single
 /// precision is not enough: slope and offset in two parts each, of which the first are multiples of a power of two so
@@ -35,4 +35,4 @@ inline SplitLinear split_linear(const glm::dvec2& slope, double offset, double r
             static_cast<float>(offset - high_offset)};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -144,4 +144,4 @@ bool SurfaceTriangles::draw_box(const std::array<SurfacePoint, 3>& corners, Surf
     return true;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A triangle of a surface as one image sees it: where it is drawn, and what decides for each pixel whether the ray
 /// through its centre passes through it. The layout is that of `Triangle` in surface_shaders.cpp.
@@ -56,4 +56,4 @@ private:
     double range_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

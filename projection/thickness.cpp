@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -187,4 +187,4 @@ std::array<glm::vec4, 5> Thickness::interpolate(const std::array<glm::vec4, 4>& 
     return {thick, along1, along2, at_points[2] - thick - along2, at_points[0] - thick - along1};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -10,7 +10,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a cell is at its thickest point: where its inner point is seen, or where the two edges of a quad cross. Shirley
 /// and Tuchman's triangles have it as a corner, and thickness falls from it to zero along the silhouette.
@@ -83,4 +83,4 @@ struct Thickness {
 
 Thickness thickness_of(const VisibleCell& cell, const CellValues& values);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace visorder {
+namespace visorder::detail {
 
 bool single_precision_is_enough(const VisibleCell& cell, const TriangleSources& from)
 {
@@ -21,4 +21,4 @@ bool single_precision_is_enough(const VisibleCell& cell, const TriangleSources& 
     return looked_up_in_single_precision(*from.pieces, lowest, highest, longest);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "projection/optical_pieces.h"
+#include "optics/optical_pieces.h"
 #include "projection/scaled_scalars.h"
 #include "projection/screen.h"
 #include "projection/visible_cells.h"
@@ -8,7 +8,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What cells' triangles are made from. All of it must outlive what is made.
 struct TriangleSources {
@@ -24,4 +24,4 @@ struct TriangleSources {
 /// scalars in single precision: see looked_up_in_single_precision.
 bool single_precision_is_enough(const VisibleCell& cell, const TriangleSources& from);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -205,4 +205,4 @@ bool VisibleCells::centre_near(const glm::dvec2& a, const glm::dvec2& b, const g
     return false;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

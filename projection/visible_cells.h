@@ -3,7 +3,7 @@
 #include "projection/cell_triangles.h"
 #include "projection/screen_points.h"
 #include "projection/silhouette.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <glm/common.hpp>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A tetrahedron that covers the centre of a pixel, or may.
 struct VisibleCell {
@@ -134,4 +134,4 @@ void VisibleCells::visit(std::span<const CellId> cells, Visible&& visible, Apart
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

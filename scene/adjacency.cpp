@@ -1,7 +1,8 @@
 #include "scene/adjacency.h"
 
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "scene/orientations.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,7 @@
 #include <optional>
 #include <stdexcept>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -392,4 +393,4 @@ int matching_face(const Scene& scene, CellId cell, int face)
     return matching_face_in(scene.mesh(), scene.adjacency(), cell, face);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "scene/cell_shape.h"
-#include "scene/large_array.h"
+#include "parallel/large_array.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <compare>
@@ -9,9 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// A face of a cell: `face` in [0, face_count(shape of cell)).
 struct CellFace {
@@ -63,4 +62,4 @@ Adjacency derive_adjacency(const Scene& scene);
 /// The face of the neighbour across interior face `face` of `cell` that is this face, as an index into its own faces.
 int matching_face(const Scene& scene, CellId cell, int face);
 
-} // namespace visorder
+} // namespace visorder::detail

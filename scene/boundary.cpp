@@ -1,13 +1,14 @@
 #include "scene/boundary.h"
 
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "scene/orientations.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -75,4 +76,4 @@ Boundary derive_boundary(const Scene& scene)
     return boundary;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,12 @@
 #pragma once
 
 #include "scene/adjacency.h"
+#include "visorder/scene.h"
 
 #include <cstdint>
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// The faces of solid cells (in a surface scene, the edges of triangles) that have no neighbour, ascending by cell and
 /// face, and how they are connected.
@@ -19,4 +18,4 @@ struct Boundary {
 
 Boundary derive_boundary(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

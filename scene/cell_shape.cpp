@@ -1,4 +1,4 @@
-#include "scene/cell_shape.h"
+#include "visorder/mesh.h"
 
 #include <array>
 

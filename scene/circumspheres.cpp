@@ -1,8 +1,8 @@
 #include "scene/circumspheres.h"
 
-#include "scene/error.h"
-#include "scene/exact_predicates.h"
-#include "scene/scene.h"
+#include "geometry/exact_predicates.h"
+#include "visorder/error.h"
+#include "visorder/scene.h"
 
 #include <CGAL/Gmpq.h>
 #include <array>
@@ -12,7 +12,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -164,4 +164,4 @@ Circumspheres derive_circumspheres(const Scene& scene)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "scene/large_array.h"
+#include "parallel/large_array.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// The power of a point x with respect to cell i's circumsphere is |x - origin|^2 - 2 dot(centre[i], x - origin) +
 /// constant[i]: centres are relative to `origin`, the middle of the scene, and constant = |centre|^2 - radius^2.
@@ -24,4 +23,4 @@ struct Circumspheres {
 /// Throws InputError for a surface scene.
 Circumspheres derive_circumspheres(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

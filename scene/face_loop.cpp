@@ -1,6 +1,6 @@
 #include "scene/face_loop.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 bool collinear(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
@@ -23,4 +23,4 @@ std::optional<FaceTriple> spanning_triple(const Mesh& mesh, const FaceLoop& loop
     return std::nullopt;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,14 +1,15 @@
 #pragma once
 
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
 #include "scene/boundary.h"
-#include "scene/exact_predicates.h"
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The distinct vertices of a face in the order of `face_vertices`: a face with repeated vertices (in a mesh whose
 /// points were joined) is the polygon that is left of it. Fewer than three: the face collapsed and is none.
@@ -70,4 +71,4 @@ inline bool is_collapsed(const Mesh& mesh, CellId cell)
     return count < (mesh.shapes[cell] == CellShape::triangle ? 3 : 4);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,8 +1,10 @@
 #include "scene/face_planes.h"
 
-#include "scene/error.h"
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "scene/orientations.h"
+#include "visorder/error.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,7 +15,7 @@
 #include <immintrin.h>
 #endif
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -180,4 +182,4 @@ void FaceSigns::evaluate(const Scene& scene, const glm::dvec4& eye)
     });
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,17 +1,16 @@
 #pragma once
 
-#include "scene/cell_shape.h"
-#include "scene/exact_predicates.h"
-#include "scene/large_array.h"
-#include "scene/unit_planes.h"
+#include "geometry/exact_predicates.h"
+#include "geometry/unit_planes.h"
+#include "parallel/large_array.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <span>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// The planes of all faces in single precision, one block per cell, for the filter of FaceSigns: block i holds the x of
 /// the normals of its faces, then the y, the z, and the offsets, `row_length` of each; normals point outward. Both
@@ -50,4 +49,4 @@ private:
     LargeArray<std::uint16_t> bits_; // entry | exit << 8 of every cell
 };
 
-} // namespace visorder
+} // namespace visorder::detail

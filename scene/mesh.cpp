@@ -1,7 +1,7 @@
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
-#include "scene/error.h"
-#include "scene/large_array.h"
+#include "parallel/large_array.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,6 +16,8 @@
 #include <unordered_map>
 
 namespace visorder {
+
+using namespace detail;
 
 namespace {
 

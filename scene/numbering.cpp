@@ -1,13 +1,13 @@
 #include "scene/numbering.h"
 
-#include "scene/box.h"
-#include "scene/morton_curve.h"
-#include "scene/radix_sort.h"
+#include "geometry/morton_curve.h"
+#include "parallel/radix_sort.h"
+#include "visorder/box.h"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -86,4 +86,4 @@ Numbering renumber(Mesh& mesh)
     return numbering;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "scene/large_array.h"
-#include "scene/mesh.h"
+#include "parallel/large_array.h"
+#include "visorder/mesh.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Cells and points in the order of a Morton curve through the bounds of the points, by cell centres and by points:
 /// what lies near in space lies near in memory.
@@ -15,4 +15,4 @@ struct Numbering {
 /// Renumbers a valid mesh in place and returns how.
 Numbering renumber(Mesh& mesh);
 
-} // namespace visorder
+} // namespace visorder::detail

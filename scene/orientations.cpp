@@ -1,13 +1,13 @@
 #include "scene/orientations.h"
 
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -74,4 +74,4 @@ Orientations derive_orientations(const Scene& scene)
     return result;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,15 +1,14 @@
 #pragma once
 
-#include "scene/exact_predicates.h"
-#include "scene/large_array.h"
-#include "scene/mesh.h"
+#include "geometry/exact_predicates.h"
+#include "parallel/large_array.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <cstdint>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// Which way round each cell's vertices stand, decided exactly.
 struct Orientations {
@@ -26,4 +25,4 @@ Orientations derive_orientations(const Scene& scene);
 /// What Orientations::sign says of one solid cell, from its vertices alone. Exact.
 Sign orientation_of(const Mesh& mesh, CellId cell);
 
-} // namespace visorder
+} // namespace visorder::detail

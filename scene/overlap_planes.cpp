@@ -1,6 +1,6 @@
 #include "scene/overlap_planes.h"
 
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::vector<OverlapPlane> derive_overlap_planes(const Scene& scene)
     return planes;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,12 +1,11 @@
 #pragma once
 
 #include "scene/face_loop.h"
+#include "visorder/scene.h"
 
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// Two cells that overlap in space, and the plane that nearly separates them: of all planes through three vertices of
 /// the two, the one that the cells reach least far beyond. An eye that sees a, b, c counterclockwise has `near` in
@@ -22,4 +21,4 @@ struct OverlapPlane {
 /// precision to tell have none.
 std::vector<OverlapPlane> derive_overlap_planes(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,9 +1,12 @@
 #include "scene/overlapping_cells.h"
 
-#include "scene/box_hierarchy.h"
-#include "scene/exact_predicates.h"
+#include "geometry/box_hierarchy.h"
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "scene/orientations.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -27,7 +30,7 @@
 // For this, flat cells are left out, and the faces of their solid neighbours are boundary faces; each of these is taken
 // as a piece of its own, since nothing says how they hang together.
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -278,4 +281,4 @@ std::vector<std::pair<CellId, CellId>> derive_overlapping_cells(const Scene& sce
     return OverlapSearch(scene).run();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,12 @@
 #pragma once
 
-#include "scene/cell_shape.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <utility>
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// Whether the interiors of two cells have a point in common, decided exactly. The cells are convex with planar faces;
 /// a flat one has no interior. Inner numbering.
@@ -20,4 +19,4 @@ bool interiors_overlap(const Scene& scene, CellId a, CellId b);
 /// against all, are searched for a first such pair; where there is none there, there is none at all (see the source).
 std::vector<std::pair<CellId, CellId>> derive_overlapping_cells(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,11 +1,13 @@
 #include "scene/relation_faces.h"
 
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "scene/orientations.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -57,4 +59,4 @@ std::vector<CellFace> derive_relation_faces(const Scene& scene)
     return faces;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

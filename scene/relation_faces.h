@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The faces between which the relations of a scene of solids are sought that its interior faces do not carry,
 /// ascending by cell and face: the boundary faces and, where cells overlap in space, also the interior faces of such
@@ -17,4 +17,4 @@ namespace visorder {
 /// that the ray comes from. A flat cell between X and Z only takes the place of their common face.
 std::vector<CellFace> derive_relation_faces(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

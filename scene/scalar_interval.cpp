@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace visorder {
+namespace visorder::detail {
 
 std::optional<ScalarInterval> scalar_interval(const Mesh& mesh)
 {
@@ -20,4 +20,4 @@ std::optional<ScalarInterval> scalar_interval(const Mesh& mesh)
     return interval ? interval : ScalarInterval{0, 0};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

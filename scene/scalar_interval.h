@@ -1,10 +1,10 @@
 #pragma once
 
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// From the lowest finite scalar to the highest.
 struct ScalarInterval {
@@ -16,4 +16,4 @@ struct ScalarInterval {
 /// Of all points of a mesh; none if it has no scalars. From 0 to 0 if none of them is finite.
 std::optional<ScalarInterval> scalar_interval(const Mesh& mesh);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,16 +1,28 @@
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
+#include "parallel/large_array.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+#include "scene/circumspheres.h"
+#include "scene/derived.h"
+#include "scene/face_planes.h"
 #include "scene/numbering.h"
+#include "scene/orientations.h"
+#include "scene/overlap_planes.h"
 #include "scene/overlapping_cells.h"
 #include "scene/relation_faces.h"
 #include "scene/stopwatch.h"
+#include "scene/traits.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace visorder {
+
+namespace detail {
 
 namespace {
 
@@ -79,64 +91,114 @@ LargeArray<glm::vec3> derive_centroids(const Scene& scene)
 
 } // namespace
 
-template <class T, class Make>
-const T& Scene::derive(const Derived<T>& slot, Structure structure, Make&& make) const
+/// What a Scene refers to.
+struct SceneData {
+    Mesh mesh;
+    LargeArray<CellId> caller_cells;
+    LargeArray<PointId> caller_points;
+    Box bounds;
+    bool tetrahedral = false;
+
+    Derived<Orientations> orientations;
+    Derived<Adjacency> adjacency;
+    Derived<Boundary> boundary;
+    Derived<FacePlanes> face_planes;
+    Derived<LargeArray<glm::vec3>> centroids;
+    Derived<Circumspheres> circumspheres;
+    Derived<Traits> traits;
+    Derived<std::vector<std::pair<CellId, CellId>>> overlapping_cells;
+    Derived<std::vector<OverlapPlane>> overlap_planes;
+    Derived<std::vector<CellFace>> relation_faces;
+
+    std::mutex records_mutex;
+    std::vector<StructureRecord> records;
+
+    template <class T, class Make>
+    const T& derive(const Derived<T>& slot, Structure structure, Make&& make)
+    {
+        return slot.get([&] {
+            Stopwatch watch;
+            T value = make();
+            const std::lock_guard lock(records_mutex);
+            records.push_back({structure, watch.lap(), bytes(value)});
+            return value;
+        });
+    }
+};
+
+} // namespace detail
+
+using namespace detail;
+
+Scene::Scene(Mesh mesh) : data_(std::make_shared<SceneData>()), mesh_(&data_->mesh)
 {
-    return slot.get([&] {
-        Stopwatch watch;
-        T value = make();
-        const std::lock_guard lock(records_mutex_);
-        records_.push_back({structure, watch.lap(), bytes(value)});
-        return value;
-    });
+    SceneData& data = *data_;
+    data.mesh = std::move(mesh);
+    validate(data.mesh);
+    Stopwatch watch;
+    Numbering numbering = renumber(data.mesh);
+    data.caller_cells = std::move(numbering.caller_cells);
+    data.caller_points = std::move(numbering.caller_points);
+    for (const glm::dvec3& p : data.mesh.points)
+        data.bounds.add(p);
+    data.tetrahedral = std::all_of(data.mesh.shapes.begin(), data.mesh.shapes.end(),
+                                   [](CellShape shape) { return shape == CellShape::tetrahedron; });
+    data.records.push_back(
+        {Structure::numbering, watch.lap(), size_of(data.caller_cells) + size_of(data.caller_points)});
 }
 
-Scene::Scene(Mesh mesh) : mesh_(std::move(mesh))
+bool Scene::is_tetrahedral() const
 {
-    validate(mesh_);
-    Stopwatch watch;
-    Numbering numbering = renumber(mesh_);
-    caller_cells_ = std::move(numbering.caller_cells);
-    caller_points_ = std::move(numbering.caller_points);
-    for (const glm::dvec3& p : mesh_.points)
-        bounds_.add(p);
-    tetrahedral_ = std::all_of(mesh_.shapes.begin(), mesh_.shapes.end(),
-                               [](CellShape shape) { return shape == CellShape::tetrahedron; });
-    records_.push_back({Structure::numbering, watch.lap(), size_of(caller_cells_) + size_of(caller_points_)});
+    return data_->tetrahedral;
+}
+
+const Box& Scene::bounds() const
+{
+    return data_->bounds;
+}
+
+std::span<const CellId> Scene::caller_cells() const
+{
+    return data_->caller_cells;
+}
+
+std::span<const PointId> Scene::caller_points() const
+{
+    return data_->caller_points;
 }
 
 const Adjacency& Scene::adjacency() const
 {
     if (!is_surface())
         orientations();
-    return derive(adjacency_, Structure::adjacency, [&] { return derive_adjacency(*this); });
+    return data_->derive(data_->adjacency, Structure::adjacency, [&] { return derive_adjacency(*this); });
 }
 
 const Orientations& Scene::orientations() const
 {
-    return derive(orientations_, Structure::orientations, [&] { return derive_orientations(*this); });
+    return data_->derive(data_->orientations, Structure::orientations, [&] { return derive_orientations(*this); });
 }
 
 const Boundary& Scene::boundary() const
 {
     adjacency();
-    return derive(boundary_, Structure::boundary, [&] { return derive_boundary(*this); });
+    return data_->derive(data_->boundary, Structure::boundary, [&] { return derive_boundary(*this); });
 }
 
 const FacePlanes& Scene::face_planes() const
 {
     adjacency();
-    return derive(face_planes_, Structure::face_planes, [&] { return derive_face_planes(*this); });
+    return data_->derive(data_->face_planes, Structure::face_planes, [&] { return derive_face_planes(*this); });
 }
 
 const LargeArray<glm::vec3>& Scene::centroids() const
 {
-    return derive(centroids_, Structure::centroids, [&] { return derive_centroids(*this); });
+    return data_->derive(data_->centroids, Structure::centroids, [&] { return derive_centroids(*this); });
 }
 
 const Circumspheres& Scene::circumspheres() const
 {
-    return derive(circumspheres_, Structure::circumspheres, [&] { return derive_circumspheres(*this); });
+    return data_->derive(data_->circumspheres, Structure::circumspheres, [&] { return derive_circumspheres(*this); });
 }
 
 const Traits& Scene::traits() const
@@ -144,36 +206,39 @@ const Traits& Scene::traits() const
     // Derived first, so that the time of each is its own.
     orientations();
     boundary();
-    return derive(traits_, Structure::traits, [&] { return derive_traits(*this); });
+    return data_->derive(data_->traits, Structure::traits, [&] { return derive_traits(*this); });
 }
 
 const std::vector<std::pair<CellId, CellId>>& Scene::overlapping_cells() const
 {
     boundary();
-    return derive(overlapping_cells_, Structure::overlapping_cells, [&] { return derive_overlapping_cells(*this); });
+    return data_->derive(data_->overlapping_cells, Structure::overlapping_cells,
+                         [&] { return derive_overlapping_cells(*this); });
 }
 
 const std::vector<OverlapPlane>& Scene::overlap_planes() const
 {
     overlapping_cells();
-    return derive(overlap_planes_, Structure::overlap_planes, [&] { return derive_overlap_planes(*this); });
+    return data_->derive(data_->overlap_planes, Structure::overlap_planes,
+                         [&] { return derive_overlap_planes(*this); });
 }
 
 const std::vector<CellFace>& Scene::relation_faces() const
 {
     overlapping_cells();
-    return derive(relation_faces_, Structure::relation_faces, [&] { return derive_relation_faces(*this); });
+    return data_->derive(data_->relation_faces, Structure::relation_faces,
+                         [&] { return derive_relation_faces(*this); });
 }
 
 std::vector<StructureRecord> Scene::derived() const
 {
-    const std::lock_guard lock(records_mutex_);
-    return records_;
+    const std::lock_guard lock(data_->records_mutex);
+    return data_->records;
 }
 
 double Scene::diameter() const
 {
-    const double diagonal = glm::length(bounds_.max - bounds_.min);
+    const double diagonal = glm::length(bounds().max - bounds().min);
     return diagonal > 0 ? diagonal : 1;
 }
 

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Wall-clock seconds since it was made, or since the last lap.
 class Stopwatch {
@@ -19,4 +19,4 @@ private:
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-} // namespace visorder
+} // namespace visorder::detail

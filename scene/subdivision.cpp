@@ -1,6 +1,6 @@
-#include "scene/subdivision.h"
+#include "visorder/mesh.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>

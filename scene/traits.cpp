@@ -1,10 +1,14 @@
 #include "scene/traits.h"
 
-#include "scene/box_hierarchy.h"
-#include "scene/exact_predicates.h"
+#include "geometry/box_hierarchy.h"
+#include "geometry/exact_predicates.h"
+#include "geometry/face_overlap.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+#include "scene/circumspheres.h"
 #include "scene/face_loop.h"
-#include "scene/face_overlap.h"
-#include "scene/scene.h"
+#include "scene/orientations.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -306,4 +310,4 @@ Traits derive_traits(const Scene& scene)
     return traits;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

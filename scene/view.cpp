@@ -1,6 +1,6 @@
-#include "scene/view.h"
+#include "visorder/view.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,13 @@
 #include "sorting/boundary_relations.h"
 
-#include "scene/box_hierarchy.h"
-#include "scene/face_overlap.h"
-#include "scene/scene.h"
-#include "sorting/projection_charts.h"
+#include "geometry/box_hierarchy.h"
+#include "geometry/exact_predicates.h"
+#include "geometry/face_overlap.h"
+#include "geometry/projection_charts.h"
+#include "scene/adjacency.h"
+#include "scene/face_planes.h"
+#include "scene/seen_face.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +20,7 @@
 #include <span>
 #include <tuple>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -204,4 +208,4 @@ void boundary_relations(const Scene& scene, const glm::dvec4& eye, BoundaryRelat
     search.collect(result);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

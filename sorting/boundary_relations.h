@@ -1,16 +1,15 @@
 #pragma once
 
 #include "scene/boundary.h"
-#include "sorting/relation.h"
+#include "visorder/relation.h"
+#include "visorder/scene.h"
 
 #include <cstddef>
 #include <glm/vec4.hpp>
 #include <utility>
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// What the boundary faces of a scene say about its order from one eye; cells in the inner numbering.
 struct BoundaryRelations {
@@ -32,4 +31,4 @@ struct BoundaryRelations {
 /// through, `face_overlap` decides. The result does not depend on the number of threads.
 void boundary_relations(const Scene& scene, const glm::dvec4& eye, BoundaryRelations& result);
 
-} // namespace visorder
+} // namespace visorder::detail

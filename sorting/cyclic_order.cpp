@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -177,4 +177,4 @@ CyclicOrder order_with_cycles(std::uint32_t node_count, std::span<const Preceden
     return Ordering(node_count, edges).run();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// An edge between nodes 0 to n-1: `before` is to be listed before `after`.
 struct Precedence {
@@ -26,4 +26,4 @@ struct CyclicOrder {
 /// tentative edges unsatisfied; and within these, the nodes, always one with the fewest edges unsatisfied.
 CyclicOrder order_with_cycles(std::uint32_t node_count, std::span<const Precedence> edges);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,11 @@
 #include "sorting/face_pairs.h"
 
-#include "scene/face_overlap.h"
-#include "scene/scene.h"
+#include "geometry/face_overlap.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+#include "scene/face_planes.h"
+#include "scene/seen_face.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <oneapi/tbb/blocked_range.h>
@@ -9,7 +13,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 void FacePairs::propose(const std::vector<std::uint32_t>& fronts)
 {
@@ -84,4 +88,4 @@ void confirm_pairs(const Scene& scene, const glm::dvec4& eye, std::span<const st
     relations.erase(std::unique(relations.begin(), relations.end()), relations.end());
 }
 
-} // namespace visorder
+} // namespace visorder::detail

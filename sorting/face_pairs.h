@@ -1,17 +1,18 @@
 #pragma once
 
-#include "scene/exact_predicates.h"
-#include "sorting/relation.h"
+#include "geometry/exact_predicates.h"
+#include "scene/face_planes.h"
+#include "visorder/relation.h"
+#include "visorder/scene.h"
 
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 class FaceSigns;
-class Scene;
 
 /// A boundary face that a ray from the eye meets.
 struct RayHit {
@@ -52,4 +53,4 @@ void face_sides(const Scene& scene, const FaceSigns& signs, std::vector<Sign>& s
 void confirm_pairs(const Scene& scene, const glm::dvec4& eye, std::span<const std::uint64_t> pairs,
                    std::vector<Relation>& relations);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,4 +1,4 @@
-#include "sorting/sorter.h"
+#include "visorder/sorter.h"
 
 #include <fmt/format.h>
 

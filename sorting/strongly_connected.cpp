@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace visorder {
+namespace visorder::detail {
 
 Graph graph_of(std::uint32_t node_count, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to)
 {
@@ -69,4 +69,4 @@ Components strongly_connected_components(const Graph& graph)
     return components;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A directed graph over nodes 0 to n-1: the successors of node i are successors[begin[i]] up to
 /// successors[begin[i + 1]].
@@ -30,4 +30,4 @@ struct Components {
 };
 Components strongly_connected_components(const Graph& graph);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,9 +1,10 @@
 #include "sorting/tentative_relations.h"
 
-#include "scene/exact_predicates.h"
-#include "scene/scene.h"
+#include "geometry/exact_predicates.h"
+#include "scene/overlap_planes.h"
+#include "visorder/scene.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 void tentative_relations(const Scene& scene, const glm::dvec4& eye, std::vector<Relation>& relations)
 {
@@ -21,4 +22,4 @@ void tentative_relations(const Scene& scene, const glm::dvec4& eye, std::vector<
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

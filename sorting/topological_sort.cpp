@@ -1,8 +1,9 @@
 #include "sorting/topological_sort.h"
 
-#include "scene/concurrency.h"
+#include "parallel/concurrency.h"
+#include "parallel/team.h"
+#include "scene/face_set.h"
 #include "sorting/cyclic_order.h"
-#include "sorting/team.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <utility>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -475,4 +476,4 @@ std::size_t TopologicalSort::bytes() const
     return sum;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

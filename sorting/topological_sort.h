@@ -1,16 +1,16 @@
 #pragma once
 
+#include "parallel/large_array.h"
 #include "scene/adjacency.h"
 #include "scene/face_planes.h"
-#include "scene/large_array.h"
-#include "sorting/relation.h"
-#include "sorting/sorter.h"
+#include "visorder/relation.h"
+#include "visorder/sorter.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The topological sort that all sorters over relations share (Max, Williams, Silva 2000, section III; Kahn 1962):
 /// first the cells that occlude nothing, then level by level those that occlude only cells already listed. Within a
@@ -63,4 +63,4 @@ private:
     std::vector<std::uint32_t> cursors_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "files/read_mesh.h"
-#include "scene/error.h"
+#include "visorder/error.h"
+#include "visorder/read_mesh.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

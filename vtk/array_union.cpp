@@ -11,7 +11,7 @@
 #include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -94,4 +94,4 @@ std::vector<FileArray> union_of_arrays(const VtkFile& file, bool on_cells)
     return found;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 #include <array>
 #include <vtkCellType.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::optional<CellKind> cell_kind(int vtk_type)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

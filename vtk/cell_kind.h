@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a VTK cell type is to a mesh.
 struct CellKind {
@@ -18,4 +18,4 @@ struct CellKind {
 /// `vtk_type` is one of VTKCellType's values; nothing for a solid or surface that visorder has no shape for.
 std::optional<CellKind> cell_kind(int vtk_type);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "vtk/data_set_grid.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/array_union.h"
 #include "vtk/cell_kind.h"
 
@@ -19,7 +19,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -211,4 +211,4 @@ FileGrid grid_of(const VtkFile& file)
     return PartsReading(file).run();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

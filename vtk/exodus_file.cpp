@@ -1,5 +1,5 @@
 #include "files/time_step.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/message_capture.h"
 #include "vtk/netcdf_length.h"
 #include "vtk/vtk_file.h"
@@ -12,7 +12,7 @@
 #include <vtkNew.h>
 #include <vtk_netcdf.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -94,4 +94,4 @@ VtkFile read_exodus_file(const std::filesystem::path& path, const std::string& t
     return file;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -2,7 +2,7 @@
 
 #include "files/mapped_file.h"
 #include "files/printable.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/legacy_text.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 #include <vector>
 #include <vtkCellType.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -585,4 +585,4 @@ void check_legacy_file(const std::filesystem::path& path)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,5 +1,5 @@
 #include "files/time_step.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/legacy_check.h"
 #include "vtk/message_capture.h"
 #include "vtk/vtk_file.h"
@@ -9,7 +9,7 @@
 #include <vtkDataSetReader.h>
 #include <vtkNew.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -41,4 +41,4 @@ VtkFile read_legacy_file(const std::filesystem::path& path, const std::string& t
     return {path, {{reader->GetOutput(), ""}}, false, std::move(notes)};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,13 +1,13 @@
 #include "vtk/legacy_text.h"
 
 #include "files/printable.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -192,4 +192,4 @@ void LegacyText::skip_binary_strings(std::uint64_t count, const std::string& of_
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

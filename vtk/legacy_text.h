@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The bytes of a legacy VTK file, read from front to back as VTK reads them: words between blanks, numbers, lines, and
 /// arrays of numbers in text or in binary. Throws InputError, without the file's name, where something else comes.
@@ -43,4 +43,4 @@ private:
     std::string_view rest_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,7 @@
 #include "vtk/message_capture.h"
 
 #include "files/printable.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -116,4 +116,4 @@ std::vector<std::string> run_reader(const std::filesystem::path& file, const std
     return window->warnings;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

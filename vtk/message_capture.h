@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Runs a VTK reader. Throws InputError, naming the file, with the first error that VTK reports, and with the first
 /// warning that comes from no object (which is how the legacy readers report damage); returns all other warnings, one
@@ -15,4 +15,4 @@ namespace visorder {
 /// run at a time; others wait.
 std::vector<std::string> run_reader(const std::filesystem::path& file, const std::function<void()>& read);
 
-} // namespace visorder
+} // namespace visorder::detail

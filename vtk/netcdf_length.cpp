@@ -2,7 +2,7 @@
 
 #include "vtk/netcdf_length.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <fstream>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::optional<std::uint64_t> declared_netcdf_length(const std::filesystem::path&
     return Header(path).declared_length();
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -47,4 +47,4 @@ std::span<const MeshFormat> vtk_formats()
     return formats;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

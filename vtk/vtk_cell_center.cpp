@@ -14,7 +14,7 @@
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -154,9 +154,4 @@ std::size_t VtkCellCenter::bytes() const
     return std::size_t{vtk_->grid->GetActualMemorySize()} * 1024;
 }
 
-std::unique_ptr<Sorter> make_vtk_cell_center(const Scene& scene, const SorterOptions&)
-{
-    return std::make_unique<VtkCellCenter>(scene);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "sorting/registry.h"
-#include "sorting/sorter.h"
+#include "visorder/sorter.h"
 
 #include <memory>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// VTK's vtkCellCenterDepthSort (Moreland, 2003), as a peer to compare with: the cells by the depth of their centres
 /// along the direction of projection, in single precision. VTK gets the cells and points in the caller's numbering, as
@@ -36,6 +35,4 @@ private:
     std::vector<bool> returned_;
 };
 
-std::unique_ptr<Sorter> make_vtk_cell_center(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

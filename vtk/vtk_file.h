@@ -6,7 +6,7 @@
 #include <vtkDataSet.h>
 #include <vtkSmartPointer.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What a VTK reader made of a file.
 struct VtkFile {
@@ -26,4 +26,4 @@ VtkFile read_xml_file(const std::filesystem::path& path, const std::string& time
 VtkFile read_legacy_file(const std::filesystem::path& path, const std::string& time);
 VtkFile read_exodus_file(const std::filesystem::path& path, const std::string& time);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 #include "vtk/xml_array.h"
 
 #include "files/printable.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkZLibDataCompressor.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -272,4 +272,4 @@ std::vector<std::int64_t> XmlArray::integers() const
     return values;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

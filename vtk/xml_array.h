@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What all arrays of a VTK XML file have in common.
 struct XmlEncoding {
@@ -58,4 +58,4 @@ private:
     std::string_view compressed_;                 // all blocks
 };
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,7 +1,7 @@
 #include "vtk/xml_check.h"
 
 #include "files/mapped_file.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/xml_array.h"
 #include "vtk/xml_tree.h"
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <sstream>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -189,4 +189,4 @@ void check_xml_file(const std::filesystem::path& path)
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Goes through a file of one of VTK's XML formats before VTK does, which believes what it says: that the file is long
 /// enough for its points, cells and arrays, compressed data taken into account, and that the faces of polyhedra are
@@ -13,4 +13,4 @@ void check_xml_file(const std::filesystem::path& path);
 /// The same of a file's content; the message does not name the file.
 void check_xml_content(std::string_view content);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "files/printable.h"
 #include "files/time_step.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/message_capture.h"
 #include "vtk/xml_file.h"
 
@@ -11,7 +11,7 @@
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -153,4 +153,4 @@ VtkFile read_xml_collection(const std::filesystem::path& path, const std::string
     return Collection(path, type).read(time);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

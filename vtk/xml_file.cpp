@@ -1,7 +1,7 @@
 #include "vtk/xml_file.h"
 
 #include "files/time_step.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/message_capture.h"
 #include "vtk/xml_check.h"
 #include "vtk/xml_piece_arrays.h"
@@ -25,7 +25,7 @@
 #include <vtkXMLStructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -169,4 +169,4 @@ VtkFile read_xml_file(const std::filesystem::path& path, const std::string& time
     return read_xml_collection(path, type, time);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

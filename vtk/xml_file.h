@@ -2,7 +2,7 @@
 
 #include "vtk/vtk_file.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 /// What the opening tag of a VTK XML file says it holds, as "UnstructuredGrid"; empty for any other file.
 std::string declared_xml_type(const std::filesystem::path& path);
@@ -17,4 +17,4 @@ VtkFile read_xml_data_set(const std::filesystem::path& path, const std::string& 
 /// Reads a file that names others: pieces, blocks or time steps. Throws InputError, naming the file at fault.
 VtkFile read_xml_collection(const std::filesystem::path& path, const std::string& type, const std::string& time);
 
-} // namespace visorder
+} // namespace visorder::detail

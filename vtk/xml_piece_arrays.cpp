@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -76,4 +76,4 @@ std::vector<XmlPieceArrays> xml_piece_arrays(const std::filesystem::path& path)
     return pieces;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

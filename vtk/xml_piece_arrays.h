@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// The names of the arrays that a piece of a VTK XML file lists.
 struct XmlPieceArrays {
@@ -15,4 +15,4 @@ struct XmlPieceArrays {
 /// Those of all pieces of a file that VTK has read, in the file's order.
 std::vector<XmlPieceArrays> xml_piece_arrays(const std::filesystem::path& path);
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #include "vtk/xml_tree.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vtk_expat.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -121,4 +121,4 @@ std::optional<XmlTree> xml_tree(std::string_view content)
     return tree;
 }
 
-} // namespace visorder
+} // namespace visorder::detail

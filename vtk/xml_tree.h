@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// An element of a VTK XML file.
 struct XmlElement {
@@ -32,4 +32,4 @@ struct XmlTree {
 /// them.
 std::optional<XmlTree> xml_tree(std::string_view content);
 
-} // namespace visorder
+} // namespace visorder::detail

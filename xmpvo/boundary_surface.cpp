@@ -1,12 +1,15 @@
 #include "xmpvo/boundary_surface.h"
 
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "scene/face_planes.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <tuple>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -72,4 +75,4 @@ std::size_t BoundarySurface::bytes() const
     return size_of(points) + size_of(faces) + size_of(edges) + size_of(edge_faces);
 }
 
-} // namespace visorder
+} // namespace visorder::detail

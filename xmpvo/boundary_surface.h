@@ -1,14 +1,14 @@
 #pragma once
 
+#include "visorder/scene.h"
+
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
-namespace visorder {
-
-class Scene;
+namespace visorder::detail {
 
 /// The boundary of a scene of solids as rays meet it: its faces, points and edges alone, in the unit coordinates of the
 /// face planes. Immutable once made.
@@ -35,4 +35,4 @@ struct BoundarySurface {
 
 BoundarySurface boundary_surface(const Scene& scene);
 
-} // namespace visorder
+} // namespace visorder::detail

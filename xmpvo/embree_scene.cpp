@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -149,4 +149,4 @@ void EmbreeScene::shoot(std::span<const Ray> rays, std::array<std::vector<RayHit
     }
 }
 
-} // namespace visorder
+} // namespace visorder::detail

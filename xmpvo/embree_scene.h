@@ -15,7 +15,7 @@
 struct RTCDeviceTy;
 struct RTCSceneTy;
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A boundary in Embree (Wald et al. 2014), to be shot at: single precision, watertight between faces that share edges.
 /// Owns an Embree device of its own, for as long as it lives; what Embree reports as an error becomes an exception
@@ -42,4 +42,4 @@ private:
     std::unique_ptr<RTCSceneTy, Release> scene_;
 };
 
-} // namespace visorder
+} // namespace visorder::detail

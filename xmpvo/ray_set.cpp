@@ -1,6 +1,6 @@
 #include "xmpvo/ray_set.h"
 
-#include "scene/box_hierarchy.h"
+#include "geometry/box_hierarchy.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -300,4 +300,4 @@ SilhouetteCounts visit_crossings(const BoundarySurface& surface, std::span<const
     return {edges.size(), crossings, visited};
 }
 
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/exact_predicates.h"
+#include "geometry/exact_predicates.h"
 #include "xmpvo/boundary_surface.h"
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <span>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// A ray in unit coordinates; `direction` has length 1.
 struct Ray {
@@ -57,4 +57,4 @@ struct SilhouetteCounts {
 SilhouetteCounts visit_crossings(const BoundarySurface& surface, std::span<const Sign> sides, const glm::dvec4& eye,
                                  const VisitTargets& visit);
 
-} // namespace visorder
+} // namespace visorder::detail

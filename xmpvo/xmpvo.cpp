@@ -1,13 +1,14 @@
 #include "xmpvo/xmpvo.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
+#include "visorder/sorter_options.h"
 
 #include <algorithm>
 #include <array>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_sort.h>
 
-namespace visorder {
+namespace visorder::detail {
 
 namespace {
 
@@ -103,9 +104,4 @@ std::vector<Statistic> Xmpvo::statistics() const
             {"relations", static_cast<double>(relations_.size())}};
 }
 
-std::unique_ptr<Sorter> make_xmpvo(const Scene& scene, const SorterOptions& options)
-{
-    return std::make_unique<Xmpvo>(scene, options.xmpvo_rays);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -2,19 +2,19 @@
 
 #include "scene/face_planes.h"
 #include "sorting/face_pairs.h"
-#include "sorting/registry.h"
-#include "sorting/relation.h"
 #include "sorting/topological_sort.h"
+#include "visorder/relation.h"
+#include "visorder/sorter.h"
+#include "visorder/sorter_options.h"
 #include "xmpvo/boundary_surface.h"
 #include "xmpvo/embree_scene.h"
 #include "xmpvo/ray_set.h"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
-namespace visorder {
+namespace visorder::detail {
 
 /// Extended MPVO by shooting rays (after Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000, section III): MPVO
 /// with relations between boundary cells. Rays go from the eye through every boundary face and past the crossings of
@@ -41,7 +41,7 @@ public:
 private:
     void shoot(const glm::dvec4& eye);
 
-    const Scene& scene_;
+    Scene scene_;
     XmpvoRays rays_;
     BoundarySurface surface_;
     EmbreeScene embree_;
@@ -55,6 +55,4 @@ private:
     std::size_t hit_count_ = 0;
 };
 
-std::unique_ptr<Sorter> make_xmpvo(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -1,9 +1,10 @@
 #include "xmpvo/xmpvo_exact.h"
 
-#include "sorting/registry.h"
+#include "scene/adjacency.h"
+#include "scene/overlap_planes.h"
 #include "sorting/tentative_relations.h"
 
-namespace visorder {
+namespace visorder::detail {
 
 XmpvoExact::XmpvoExact(const Scene& scene) : scene_(scene)
 {
@@ -40,9 +41,4 @@ std::vector<Statistic> XmpvoExact::statistics() const
             {"relations", static_cast<double>(boundary_.relations.size())}};
 }
 
-std::unique_ptr<Sorter> make_xmpvo_exact(const Scene& scene, const SorterOptions&)
-{
-    return std::make_unique<XmpvoExact>(scene);
-}
-
-} // namespace visorder
+} // namespace visorder::detail

@@ -2,13 +2,10 @@
 
 #include "scene/face_planes.h"
 #include "sorting/boundary_relations.h"
-#include "sorting/registry.h"
-#include "sorting/sorter.h"
 #include "sorting/topological_sort.h"
+#include "visorder/sorter.h"
 
-#include <memory>
-
-namespace visorder {
+namespace visorder::detail {
 
 /// XMPVO (Silva, Mitchell, Williams 1998) by exact tests of pairs instead of rays: a topological sort over the
 /// relations across interior faces and those of every exit boundary face to every entry boundary face that it covers in
@@ -29,13 +26,11 @@ public:
     std::vector<Statistic> statistics() const override;
 
 private:
-    const Scene& scene_;
+    Scene scene_;
     FaceSigns signs_;
     BoundaryRelations boundary_;
     std::vector<Relation> tentative_;
     TopologicalSort topological_sort_;
 };
 
-std::unique_ptr<Sorter> make_xmpvo_exact(const Scene& scene, const SorterOptions& options);
-
-} // namespace visorder
+} // namespace visorder::detail

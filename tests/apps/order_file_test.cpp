@@ -1,7 +1,7 @@
 #include "apps/order_file.h"
 
-#include "scene/error.h"
 #include "tests/temporary_folder.h"
+#include "visorder/error.h"
 
 #include <fstream>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What pictures of the command-line tool show: colour maps, views and surfaces.
 
-#include "bench/image_file.h"
+#include "files/image_file.h"
 #include "tests/apps/run_tool.h"
 #include "tests/temporary_folder.h"
 
@@ -16,6 +16,8 @@
 
 namespace visorder::tests {
 
+using namespace detail;
+
 namespace {
 
 class Pictures : public testing::Test {
@@ -26,7 +28,7 @@ protected:
         const std::string file = folder_.file("picture.exr").string();
         outcome_ = run("render " + arguments + " -o " + file);
         EXPECT_EQ(outcome_.code, 0) << arguments << "\n" << outcome_.output;
-        return outcome_.code == 0 ? bench::read_exr(file) : Image{};
+        return outcome_.code == 0 ? detail::read_exr(file) : Image{};
     }
     bool says(const std::string& words) const { return outcome_.output.find(words) != std::string::npos; }
     const std::string& said() const { return outcome_.output; }

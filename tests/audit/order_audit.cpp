@@ -6,15 +6,13 @@
 //     visorder_order_audit --scenes 10000
 //     visorder_order_audit --kind flat --first 17 --scenes 1 --write /tmp/wrong
 
-#include "checking/direct_relations.h"
-#include "checking/order_checker.h"
-#include "checking/ray_audit.h"
-#include "scene/error.h"
 #include "scene/orientations.h"
 #include "scene/stopwatch.h"
-#include "sorting/registry.h"
 #include "tests/checking/audit_scenes.h"
 #include "tests/checking/orders_of_relations.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/sorters.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -30,6 +28,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 struct Arguments {

@@ -1,11 +1,13 @@
 #include "bsp/bsp_tree.h"
 
+#include "geometry/exact_predicates.h"
+#include "geometry/face_overlap.h"
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
-#include "scene/face_overlap.h"
-#include "scene/subdivision.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/checking/small_scenes.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -22,6 +24,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

@@ -1,10 +1,12 @@
 #include "bsp/bsp_xmpvo.h"
 
-#include "checking/order_checker.h"
-#include "scene/subdivision.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/checking/small_scenes.h"
+#include "visorder/checking.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,6 +17,8 @@
 
 // What all exact sorters have in common is tested in exact_sorters_test.cpp.
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

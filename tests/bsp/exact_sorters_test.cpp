@@ -1,12 +1,14 @@
-#include "checking/order_checker.h"
-#include "scene/error.h"
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "scene/orientations.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/checking/small_scenes.h"
 #include "tests/scene/meshes.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <array>
@@ -21,6 +23,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

@@ -1,9 +1,10 @@
-#include "scene/scene.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "scene/orientations.h"
 #include "tests/checking/brute_force.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/small_scenes.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,8 @@
 // against the definition of "occludes" by all pairs of cells.
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 class HardCells : public testing::TestWithParam<const char*> {

@@ -10,6 +10,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 bool meet_in_image(const Box& a, const Box& b)

@@ -3,15 +3,19 @@
 #include "bsp/face_corners.h"
 #include "bsp/face_images.h"
 #include "bsp/touching_faces.h"
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+#include "scene/seen_face.h"
 
-#include "checking/order_checker.h"
+#include "geometry/face_overlap.h"
 #include "scene/face_loop.h"
-#include "scene/face_overlap.h"
 #include "scene/face_planes.h"
-#include "scene/subdivision.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/checking/small_scenes.h"
+#include "visorder/checking.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +30,8 @@
 
 // What the quick tests say of two faces is held against the exact one.
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

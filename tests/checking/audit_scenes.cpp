@@ -1,11 +1,12 @@
 #include "audit_scenes.h"
 
-#include "scene/box.h"
+#include "geometry/exact_predicates.h"
 #include "scene/face_loop.h"
 #include "scene/overlapping_cells.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
 #include "small_scenes.h"
+#include "visorder/box.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,8 @@
 #include <limits>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 namespace {
 

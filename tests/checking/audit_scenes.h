@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <cstdint>
 #include <glm/vec4.hpp>

@@ -1,7 +1,11 @@
-#include "scene/face_overlap.h"
-#include "scene/scene.h"
+#include "geometry/exact_predicates.h"
+#include "geometry/face_overlap.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+#include "scene/face_planes.h"
 #include "small_scenes.h"
 #include "sorting/boundary_relations.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +14,8 @@
 #include <set>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 // All pairs, without an index.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Mpzf.h>
@@ -14,6 +14,8 @@
 
 // The definitions, decided exactly and slowly, by other means than the library's.
 namespace visorder::tests::brute_force {
+
+using namespace detail;
 
 using Number = CGAL::Mpzf; // exact for sums and products of doubles
 using Vector3 = std::array<Number, 3>;

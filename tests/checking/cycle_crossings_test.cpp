@@ -1,8 +1,7 @@
 #include "audit_scenes.h"
-#include "checking/direct_relations.h"
-#include "checking/order_checker.h"
 #include "expectations.h"
 #include "orders_of_relations.h"
+#include "visorder/checking.h"
 
 #include <algorithm>
 #include <fmt/format.h>

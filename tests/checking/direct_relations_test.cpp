@@ -1,13 +1,13 @@
-#include "checking/direct_relations.h"
+#include "visorder/checking.h"
 
 #include "audit_scenes.h"
 #include "brute_force.h"
 #include "checking/convex_body.h"
 #include "expectations.h"
 #include "sampled_rays.h"
-#include "scene/error.h"
 #include "scene/orientations.h"
 #include "small_scenes.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,6 +16,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 bool has(const DirectRelations& relations, CellId front, CellId back)

@@ -1,7 +1,7 @@
 #include "expectations.h"
 
 #include "brute_force.h"
-#include "checking/order_checker.h"
+#include "visorder/checking.h"
 
 #include <cstdint>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "scene/scene.h"
-#include "sorting/sorter.h"
+#include "visorder/scene.h"
+#include "visorder/sorter.h"
 
 #include <cstddef>
 #include <glm/vec4.hpp>

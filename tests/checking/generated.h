@@ -1,8 +1,8 @@
 #pragma once
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
-#include "scene/scene.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/scene.h"
 
 #include <string>
 #include <utility>

@@ -1,5 +1,5 @@
 #include "checking/image_errors.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -7,6 +7,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 Image grey(glm::ivec2 size, float value)

@@ -1,8 +1,10 @@
 #pragma once
 
-#include "checking/medium_integral.h"
-#include "scene/scene.h"
-#include "scene/view.h"
+#include "optics/medium_integral.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
+#include "visorder/scene.h"
+#include "visorder/view.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,8 @@
 
 // Rays, the stretches of them inside cells, and light along them, by the plainest means.
 namespace visorder::tests::naive {
+
+using namespace detail;
 
 using Number = long double;
 using Vector = glm::vec<3, Number>;

@@ -1,10 +1,11 @@
 #include "audit_scenes.h"
 #include "brute_force.h"
-#include "checking/order_checker.h"
 #include "expectations.h"
-#include "scene/error.h"
+#include "scene/orientations.h"
 #include "scene/overlapping_cells.h"
 #include "small_scenes.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,8 @@
 #include <string_view>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 using Matrix = std::vector<std::vector<bool>>; // [front][back], inner numbering

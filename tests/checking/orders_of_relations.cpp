@@ -9,6 +9,8 @@
 
 namespace visorder::tests {
 
+using namespace detail;
+
 Order random_order(const Scene& scene, const Relations& relations, bool satisfy, std::uint64_t seed)
 {
     const CellId cells = scene.cell_count();

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "checking/order_checker.h"
-#include "scene/scene.h"
-#include "sorting/sorter.h"
+#include "visorder/checking.h"
+#include "visorder/scene.h"
+#include "visorder/sorter.h"
 
 #include <cstdint>
 

@@ -1,4 +1,5 @@
 #include "brute_force.h"
+#include "scene/orientations.h"
 #include "scene/overlapping_cells.h"
 #include "small_scenes.h"
 
@@ -7,6 +8,8 @@
 #include <string>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 using Pairs = std::vector<std::pair<CellId, CellId>>;

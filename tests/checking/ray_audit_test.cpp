@@ -1,11 +1,11 @@
-#include "checking/ray_audit.h"
+#include "visorder/checking.h"
 
 #include "audit_scenes.h"
-#include "checking/direct_relations.h"
+#include "checking/ray_sequence.h"
 #include "expectations.h"
 #include "sampled_rays.h"
-#include "scene/error.h"
 #include "small_scenes.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 using sampled_rays::Rational;

@@ -1,8 +1,8 @@
-#include "checking/ray_caster.h"
 #include "naive_rays.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
 #include "small_scenes.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/ray_caster.h"
 
 #include <cmath>
 #include <fmt/format.h>

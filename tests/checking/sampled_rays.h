@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <CGAL/Exact_rational.h>
 #include <array>
@@ -12,6 +12,8 @@
 // What rays show, one after another in rational arithmetic: dumber than any other truth, and never wrong about what it
 // sees. What no ray of it passes, it does not know.
 namespace visorder::tests::sampled_rays {
+
+using namespace detail;
 
 using Rational = CGAL::Exact_rational;
 using Vector = std::array<Rational, 3>;

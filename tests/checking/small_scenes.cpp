@@ -1,9 +1,10 @@
 #include "small_scenes.h"
 
 #include "brute_force.h"
-#include "scene/exact_predicates.h"
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +12,8 @@
 #include <numeric>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 namespace {
 

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "scene/adjacency.h"
 #include "scene/boundary.h"
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <array>
 #include <cstdint>
@@ -16,6 +17,8 @@ class Scene;
 }
 
 namespace visorder::tests {
+
+using namespace detail;
 
 /// The same numbers on every machine.
 class Random {

@@ -1,10 +1,11 @@
-#include "bench/generated_scene.h"
-#include "bench/views.h"
-#include "checking/order_checker.h"
 #include "depth/centroid.h"
 #include "depth/power.h"
 #include "depth/sortable_key.h"
-#include "scene/subdivision.h"
+#include "scene/circumspheres.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/checking.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -13,6 +14,8 @@
 #include <oneapi/tbb/global_control.h>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

@@ -1,10 +1,12 @@
-#include "checking/order_checker.h"
 #include "depth/newell.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
+#include "scene/adjacency.h"
+#include "scene/orientations.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/checking/small_scenes.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +20,8 @@
 #include <oneapi/tbb/global_control.h>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

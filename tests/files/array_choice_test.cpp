@@ -1,12 +1,14 @@
 #include "files/array_choice.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

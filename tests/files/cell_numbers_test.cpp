@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 std::string fault(const CellNumbers& cells, const std::vector<std::uint64_t>& numbers)

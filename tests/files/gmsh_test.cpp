@@ -1,7 +1,7 @@
-#include "scene/scene.h"
 #include "tests/files/byte_writer.h"
 #include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
+#include "visorder/scene.h"
 
 #include <array>
 #include <cmath>

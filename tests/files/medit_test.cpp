@@ -1,6 +1,6 @@
-#include "scene/scene.h"
 #include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
+#include "visorder/scene.h"
 
 #include <gmock/gmock.h>
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 using namespace visorder;
+using namespace visorder::detail;
 using testing::ElementsAre;
 using testing::IsEmpty;
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 using namespace visorder;
+using namespace visorder::detail;
 using testing::ElementsAre;
 using testing::SizeIs;
 

@@ -1,8 +1,9 @@
 #include "files/convex_hull.h"
 #include "files/file_grid.h"
-#include "scene/error.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
+#include "scene/boundary.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <random>
 
 using namespace visorder;
+using namespace visorder::detail;
 using testing::ElementsAre;
 using testing::SizeIs;
 

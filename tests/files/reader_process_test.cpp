@@ -1,8 +1,8 @@
 #include "files/reader_process.h"
 
-#include "files/read_mesh.h"
-#include "scene/error.h"
 #include "tests/temporary_folder.h"
+#include "visorder/error.h"
+#include "visorder/read_mesh.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 #include <thread>
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::tests;
 using testing::HasSubstr;
 

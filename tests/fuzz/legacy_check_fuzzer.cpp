@@ -1,4 +1,4 @@
-#include "scene/error.h"
+#include "visorder/error.h"
 #include "vtk/legacy_check.h"
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     try {
-        visorder::check_legacy_content({reinterpret_cast<const char*>(data), size});
+        visorder::detail::check_legacy_content({reinterpret_cast<const char*>(data), size});
     } catch (const visorder::InputError&) {
         // Damaged, and said to be.
     }

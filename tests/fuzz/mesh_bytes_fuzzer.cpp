@@ -1,7 +1,7 @@
 // Takes results of the reader's process apart: that may have been upset by the file it read.
 
 #include "files/mesh_file_bytes.h"
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         left = left.subspan(to.size());
     };
     try {
-        visorder::read_result(read, 1 << 20);
+        visorder::detail::read_result(read, 1 << 20);
     } catch (const visorder::InputError&) {
         // No result, and said to be none.
     }

@@ -1,7 +1,7 @@
 // Reads meshes in one of the formats that visorder reads itself, of the ending VISORDER_FUZZ_ENDING.
 
-#include "files/read_mesh.h"
-#include "scene/error.h"
+#include "visorder/error.h"
+#include "visorder/read_mesh.h"
 
 #include <cstddef>
 #include <cstdint>

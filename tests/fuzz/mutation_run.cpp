@@ -3,12 +3,12 @@
 // readers show. Seeds are our own, and the files of FOLDER with that ending. Inputs that end a process or do not end
 // are left in the working folder. Exits with 1 if there are any.
 
-#include "files/read_mesh.h"
-#include "projection/transfer_function_file.h"
-#include "scene/error.h"
+#include "files/transfer_function_file.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/seeds.h"
 #include "tests/temporary_folder.h"
+#include "visorder/error.h"
+#include "visorder/read_mesh.h"
 
 #include <array>
 #include <atomic>
@@ -28,6 +28,7 @@
 namespace {
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::tests;
 
 enum Outcome : std::size_t { read, refused, out_of_memory, outcomes };

@@ -1,8 +1,8 @@
 // Reads orders, as text and as NumPy arrays.
 
 #include "apps/order_file.h"
-#include "scene/error.h"
 #include "tests/fuzz/fuzzed_file.h"
+#include "visorder/error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

@@ -1,6 +1,6 @@
 #include "graphics/context.h"
-#include "scene/error.h"
 #include "triangle.h"
+#include "visorder/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +8,8 @@
 #include <thread>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 using testing::HasSubstr;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 TEST(Drawing, ReadsBackTheRectangleAskedFor)

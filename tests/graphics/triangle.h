@@ -9,6 +9,8 @@
 
 namespace visorder::tests {
 
+using namespace detail;
+
 /// Draws a triangle over the lower left half of the image, of one colour.
 class Triangle {
 public:

@@ -1,5 +1,5 @@
 #include <cstdio>
-#include <visorder.h>
+#include <visorder/visorder.h>
 
 int main()
 {

@@ -1,7 +1,9 @@
-# README.md shows example.cpp, whole and as it is: what is shown is what is compiled and run.
+# README.md shows the examples, whole and as they are: what is shown is what is compiled and run.
 file(READ ${PROJECT_DIR}/README.md readme)
-file(READ ${SOURCE_DIR}/example.cpp example)
-string(FIND "${readme}" "```cpp\n${example}```\n" position)
-if(position EQUAL -1)
-  message(FATAL_ERROR "README.md has no code block (```cpp) that is tests/install/example.cpp character by character")
-endif()
+foreach(name example render_example)
+  file(READ ${SOURCE_DIR}/${name}.cpp example)
+  string(FIND "${readme}" "```cpp\n${example}```\n" position)
+  if(position EQUAL -1)
+    message(FATAL_ERROR "README.md has no code block (```cpp) that is tests/install/${name}.cpp character by character")
+  endif()
+endforeach()

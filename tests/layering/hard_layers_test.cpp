@@ -1,9 +1,9 @@
 // The cases in which layers go wrong first.
 
-#include "bench/generated_scene.h"
 #include "layers_of.h"
-#include "scene/error.h"
+#include "scenes/generated_scene.h"
 #include "tests/checking/small_scenes.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 #include "layering/image_triangles.h"
 
-#include "bench/generated_scene.h"
 #include "bench/layer_truth.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
+#include "scene/boundary.h"
+#include "scenes/generated_scene.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 #include <tuple>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace bench;
 using namespace scenes;

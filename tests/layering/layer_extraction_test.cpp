@@ -1,10 +1,10 @@
-#include "bench/generated_scene.h"
-#include "bench/views.h"
 #include "layers_of.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
 #include "sorting/strongly_connected.h"
 #include "tests/checking/small_scenes.h"
 #if defined(VISORDER_WITH_VTK)
-#include "files/read_mesh.h"
+#include "visorder/read_mesh.h"
 #endif
 
 #include <algorithm>
@@ -13,6 +13,8 @@
 #include <set>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace bench;
 

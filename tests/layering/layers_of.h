@@ -8,6 +8,8 @@
 
 namespace visorder::tests {
 
+using namespace detail;
+
 /// One way of extracting layers.
 struct Extraction {
     LayerVariant variant;

@@ -1,18 +1,21 @@
 #include "layering/layers_sorter.h"
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
-#include "checking/order_checker.h"
 #include "layers_of.h"
-#include "scene/error.h"
-#include "sorting/registry.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
 #include "tests/checking/expectations.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/sorter_options.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <set>
 #include <thread>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {
@@ -78,12 +81,12 @@ TEST(LayersSorter, GivesTheSameOrdersByAllNamesAndPlatforms)
     for (const NamedView& view : random_views(scene, 2, 6, {100, 80})) {
         make_sorter("layers", scene)->sort(view.view, expected);
         for (const char* name : {"layers", "layers-blocked", "layers-compute"})
-            for (const char* gl : {"egl", "osmesa"}) {
+            for (const GlPlatform gl : {GlPlatform::egl, GlPlatform::osmesa}) {
                 SorterOptions options;
-                options.gl = gl;
-                options.layer_block = 32;
+                options.layers.gl = gl;
+                options.layers.block = 32;
                 make_sorter(name, scene, options)->sort(view.view, order);
-                EXPECT_EQ(order.back_to_front, expected.back_to_front) << name << " on " << gl;
+                EXPECT_EQ(order.back_to_front, expected.back_to_front) << name << " on " << visorder::name(gl);
                 EXPECT_EQ(order.layer_begin, expected.layer_begin);
                 EXPECT_EQ(order.cycles, expected.cycles);
             }
@@ -165,10 +168,9 @@ TEST(LayersSorter, RefusesSolidsAndPlatformsThatAreNone)
     const Scene solids(generate("delaunay:500")), surface(generate("sphere:20"));
     for (const char* name : {"layers", "layers-blocked", "layers-compute"}) {
         EXPECT_THROW(make_sorter(name, solids), InputError);
-        SorterOptions options;
-        options.gl = "glx";
-        EXPECT_THROW(make_sorter(name, surface, options), InputError);
+        EXPECT_NO_THROW(make_sorter(name, surface));
     }
+    EXPECT_THROW(gl_platform("glx"), InputError);
 }
 
 } // namespace

@@ -1,14 +1,16 @@
 #include "layering/pixel_sequences.h"
 
-#include "bench/generated_scene.h"
 #include "bench/layer_truth.h"
-#include "scene/scene.h"
+#include "scenes/generated_scene.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace bench;
 using namespace scenes;

@@ -1,17 +1,19 @@
 #include "layering/xmpvo_layered.h"
 
-#include "checking/order_checker.h"
 #include "mpvo/mpvo.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
 #include "sorting/boundary_relations.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

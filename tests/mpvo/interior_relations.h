@@ -1,7 +1,10 @@
 #pragma once
 
-#include "scene/scene.h"
-#include "sorting/sorter.h"
+#include "geometry/exact_predicates.h"
+#include "scene/adjacency.h"
+#include "scene/face_planes.h"
+#include "visorder/scene.h"
+#include "visorder/sorter.h"
 
 #include <glm/vec4.hpp>
 #include <gtest/gtest.h>
@@ -10,6 +13,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 inline std::set<std::pair<CellId, CellId>> pairs_in(const std::vector<std::vector<CellId>>& sets)
 {

@@ -1,13 +1,17 @@
 #include "mpvo/mpvo_nc.h"
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
-#include "checking/order_checker.h"
+#include "geometry/exact_predicates.h"
 #include "mpvo/mpvo.h"
-#include "scene/error.h"
+#include "scene/adjacency.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
-#include "scene/subdivision.h"
+#include "scene/face_planes.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
 #include "tests/mpvo/interior_relations.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -18,6 +22,8 @@
 #include <utility>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

@@ -1,16 +1,18 @@
 #include "mpvo/mpvo.h"
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
-#include "checking/order_checker.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <set>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

@@ -1,12 +1,12 @@
 #include "bench/frames.h"
-#include "bench/generated_scene.h"
-#include "bench/views.h"
 #include "checking/image_errors.h"
-#include "checking/ray_caster.h"
 #include "graphics/context.h"
-#include "projection/renderer.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "projection/opengl/renderer.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/mesh.h"
+#include "visorder/ray_caster.h"
+#include "visorder/sorters.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,6 +16,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace bench;
 using namespace scenes;

@@ -1,6 +1,6 @@
 #include "projection/optical_passes.h"
 
-#include "projection/preintegration.h"
+#include "optics/preintegration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 OpticalPieces pieces_with_jumps_and_a_gap()

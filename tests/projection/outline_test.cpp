@@ -10,6 +10,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 constexpr RasterLattice lattice{256, 8192};

@@ -1,15 +1,15 @@
-#include "projection/renderer.h"
+#include "projection/opengl/renderer.h"
 
 #include "bench/constant_medium.h"
 #include "bench/frames.h"
-#include "bench/generated_scene.h"
-#include "bench/views.h"
 #include "checking/image_errors.h"
-#include "checking/ray_caster.h"
 #include "graphics/context.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
-#include "sorting/registry.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/ray_caster.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace bench;
 using namespace scenes;

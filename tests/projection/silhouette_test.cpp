@@ -12,6 +12,8 @@
 #include <random>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 using Points = std::array<glm::ivec2, 4>;

@@ -1,12 +1,12 @@
 // Pictures of surfaces against rays that are met with every triangle in doubles.
 
-#include "projection/surface_renderer.h"
+#include "projection/opengl/surface_renderer.h"
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
 #include "graphics/context.h"
-#include "scene/error.h"
-#include "sorting/registry.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/error.h"
+#include "visorder/sorters.h"
 
 #include <algorithm>
 #include <array>
@@ -22,6 +22,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 

@@ -1,10 +1,11 @@
 #include "scene/adjacency.h"
 
 #include "meshes.h"
-#include "scene/error.h"
+#include "scene/boundary.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 #include <set>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 // Which cells share a face by comparing all of them, in the caller's numbering.

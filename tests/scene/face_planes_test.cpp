@@ -1,16 +1,21 @@
 #include "scene/face_planes.h"
 
+#include "geometry/exact_predicates.h"
 #include "meshes.h"
-#include "scene/error.h"
+#include "scene/adjacency.h"
 #include "scene/face_loop.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
+#include "scene/orientations.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <random>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 // The side of a face as its cell's vertices and the exact predicate have it, for solid cells.

@@ -1,5 +1,5 @@
-#include "scene/error.h"
-#include "scene/mesh.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <array>

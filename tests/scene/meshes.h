@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/mesh.h"
+#include "visorder/mesh.h"
 
 #include <array>
 #include <glm/vec3.hpp>

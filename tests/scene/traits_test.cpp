@@ -1,9 +1,12 @@
 #include "scene/traits.h"
 
 #include "meshes.h"
+#include "parallel/large_array.h"
+#include "scene/boundary.h"
 #include "scene/circumspheres.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
+#include "scene/face_planes.h"
+#include "visorder/mesh.h"
+#include "visorder/scene.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,6 +14,8 @@
 #include <thread>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 Mesh joined(const Mesh& a, const Mesh& b, const glm::dvec3& by)

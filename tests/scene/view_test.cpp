@@ -1,5 +1,5 @@
-#include "scene/error.h"
-#include "scene/view.h"
+#include "visorder/error.h"
+#include "visorder/view.h"
 
 #include <algorithm>
 #include <cmath>

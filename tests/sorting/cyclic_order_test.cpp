@@ -6,6 +6,8 @@
 #include <vector>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 using Matrix = std::vector<std::vector<bool>>;

@@ -4,6 +4,8 @@
 #include <random>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 TEST(StronglyConnected, AreTheSetsThatReachEachOther)

@@ -1,17 +1,22 @@
 #include "sorting/topological_sort.h"
 
-#include "bench/generated_scene.h"
-#include "bench/views.h"
-#include "scene/subdivision.h"
+#include "scene/adjacency.h"
+#include "scene/face_planes.h"
+#include "scenes/generated_scene.h"
+#include "scenes/views.h"
+#include "visorder/mesh.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 #include <random>
 #include <set>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {

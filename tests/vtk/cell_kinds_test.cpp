@@ -1,10 +1,11 @@
 // Every VTK cell type: what shape it becomes, in which order its corners stand.
 
-#include "files/read_mesh.h"
-#include "scene/scene.h"
-#include "scene/subdivision.h"
+#include "scene/boundary.h"
 #include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
+#include "visorder/mesh.h"
+#include "visorder/read_mesh.h"
+#include "visorder/scene.h"
 #include "vtu_text.h"
 
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <vtkCellType.h>
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::tests;
 using testing::Contains;
 using testing::ElementsAre;

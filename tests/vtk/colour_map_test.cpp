@@ -1,7 +1,7 @@
 // ParaView's colour maps against the functions of VTK that ParaView interpolates them by.
 
-#include "projection/transfer_function_file.h"
-#include "scene/srgb.h"
+#include "files/transfer_function_file.h"
+#include "optics/srgb.h"
 #include "tests/temporary_folder.h"
 
 #include <algorithm>
@@ -17,6 +17,8 @@
 #include <vtkPiecewiseFunction.h>
 
 namespace visorder::tests {
+
+using namespace detail;
 namespace {
 
 constexpr double tolerance = 1e-3;

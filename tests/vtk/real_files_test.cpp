@@ -1,6 +1,6 @@
 // The meshes of the data folder, whose counts its README gives.
 
-#include "files/read_mesh.h"
+#include "visorder/read_mesh.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #include "vtk/vtk_cell_center.h"
 
-#include "scene/error.h"
+#include "visorder/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <numeric>
 
 using namespace visorder;
+using namespace visorder::detail;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -54,7 +55,7 @@ const Scene& shuffled_row()
 
 TEST(VtkCellCenter, IsApproximate)
 {
-    EXPECT_EQ(make_vtk_cell_center(shuffled_row(), {})->guarantee(), Guarantee::approximate);
+    EXPECT_EQ(VtkCellCenter(shuffled_row()).guarantee(), Guarantee::approximate);
 }
 
 TEST(VtkCellCenter, SortsInTheCallersNumbering)

@@ -1,8 +1,9 @@
 // VTK's XML files beside .vtu: other kinds of grids, files in pieces and files that name others.
 
-#include "scene/scene.h"
+#include "scene/boundary.h"
 #include "tests/reading_error.h"
 #include "tests/temporary_folder.h"
+#include "visorder/scene.h"
 #include "vtu_text.h"
 
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <zlib.h>
 
 using namespace visorder;
+using namespace visorder::detail;
 using namespace visorder::tests;
 using testing::Contains;
 using testing::Each;

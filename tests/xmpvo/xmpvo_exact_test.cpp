@@ -12,6 +12,8 @@
 // What all exact sorters have in common is tested in tests/bsp/exact_sorters_test.cpp.
 namespace visorder::tests {
 
+using namespace detail;
+
 using namespace scenes;
 namespace {
 

@@ -1,15 +1,17 @@
 #include "xmpvo/xmpvo.h"
 
-#include "checking/order_checker.h"
 #include "mpvo/mpvo.h"
-#include "scene/concurrency.h"
-#include "scene/error.h"
-#include "scene/subdivision.h"
+#include "parallel/concurrency.h"
+#include "scene/boundary.h"
 #include "sorting/boundary_relations.h"
 #include "tests/checking/expectations.h"
 #include "tests/checking/generated.h"
 #include "tests/mpvo/interior_relations.h"
 #include "tests/scene/meshes.h"
+#include "visorder/checking.h"
+#include "visorder/error.h"
+#include "visorder/mesh.h"
+#include "visorder/sorter_options.h"
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +23,8 @@
 #include <string>
 
 namespace visorder::tests {
+
+using namespace detail;
 
 using namespace scenes;
 namespace {
