@@ -29,7 +29,7 @@ struct SceneSource {
 /// What it names.
 struct SourcedMesh {
     std::string name;
-    Mesh mesh;                        ///< tetrahedra, unless whole zoo cells were asked for
+    Mesh mesh;                        ///< tetrahedra, unless whole mixed-element cells were asked for
     CellNumbers cells{{}, {}};        ///< what they are called
     std::size_t source_cells = 0;     ///< before subdivision
     std::string scalar;               ///< the array that was taken

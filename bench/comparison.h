@@ -28,7 +28,7 @@ struct ComparisonOptions {
     std::optional<glm::dvec3> up;             ///< in the views; none: what suits each scene
     std::uint64_t seed = 1;                   ///< of the views
     int repeats = 5;                          ///< timed sorts a view, of which the median counts
-    bool subdivide = true;                    ///< zoo cells into tetrahedra
+    bool subdivide = true;                    ///< mixed-element cells into tetrahedra
     bool weld = false;                        ///< points of files with exactly equal coordinates, or
     double weld_tolerance = 0;                ///< within this distance of each other
     std::string scalar;                       ///< of files; empty: the format's default

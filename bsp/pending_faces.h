@@ -49,9 +49,9 @@ public:
         std::size_t count_ = 0;
     };
 
-    /// Adds to `found` each pending one that face `face` may cover, once a chart at most: their boxes meet, not all of
-    /// the entry face is nearer, and the walk came to it before it left `face`. Any number of threads may search side
-    /// by side.
+    /// Adds to `found` each pending one that face `face` may cover, once per chart at most: their boxes meet, not all
+    /// of the entry face is nearer, and the walk came to it before it left `face`. Any number of threads may search
+    /// side by side.
     void search(std::uint32_t face, Found& found);
 
     std::size_t bytes() const;

@@ -82,7 +82,7 @@ Row negated(Row row)
 std::vector<Row> half_spaces(const std::vector<Row>& points)
 {
     std::vector<Row> planes;
-    std::vector<std::uint32_t> points_in; // of each plane, a bit a point
+    std::vector<std::uint32_t> points_in; // of each plane, a bit per point
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t j = i + 1; j < points.size(); ++j)
             for (std::size_t k = j + 1; k < points.size(); ++k) {

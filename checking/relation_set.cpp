@@ -19,7 +19,7 @@ std::pair<CellId, CellId> ascending(CellId a, CellId b)
     return {std::min(a, b), std::max(a, b)};
 }
 
-// The directed graph of the relations, and which of its cells are on no cycle because none obstructs them but such
+// The directed graph of the relations, and which of its cells are on no cycle because none occludes them but such
 // cells.
 class Peeling {
 public:
@@ -129,7 +129,7 @@ RelationSet::UnorderableSets RelationSet::find_unorderable() const
     if (left.empty())
         return {};
 
-    // What a cell that is left obstructs is left too.
+    // What a cell that is left occludes is left too.
     LargeArray<std::uint32_t> node_of(cells);
     for (std::uint32_t node = 0; node < left.size(); ++node)
         node_of[left[node]] = node;

@@ -8,11 +8,11 @@
 #include <oneapi/tbb/parallel_sort.h>
 #include <span>
 
-// The cells moved to the head are a path: each is obscured by the one that was head before it. When the last of them
-// has gone into the order, the search of the one before goes on from where it was, since what it does not obscure it
+// The cells moved to the head are a path: each is occluded by the one that was head before it. When the last of them
+// has gone into the order, the search of the one before goes on from where it was, since what it does not occlude it
 // will not. So the moves are the descents of a depth-first search, and the second moves, which find a cell on the path
 // or one that leads back to it, are what Tarjan's algorithm (1972) finds cycles by: they never move anything twice, and
-// what they join is a strongly connected component of the whole relation "obscures", no more and no less.
+// what they join is a strongly connected component of the whole relation "occludes", no more and no less.
 //
 // Nothing moves in the lists themselves, so that they stay in the order of z, and a search may always end early.
 
@@ -141,7 +141,7 @@ void Newell::enter_window(Search& search)
         count_[depth] += number_[list.cell[search.end]] < lowest_[search.cell];
 }
 
-// Goes on with the search up to a cell that is obscured and has not come to the head yet.
+// Goes on with the search up to a cell that is occluded and has not come to the head yet.
 bool Newell::next_obscured(Search& search, CellId& obscured)
 {
     const auto extents = extents_.of(search.cell);

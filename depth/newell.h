@@ -15,8 +15,8 @@ namespace visorder::detail {
 
 /// Newell's sort (Newell, Newell and Sancha 1972; Newell 1974) for convex cells, as Max, Williams and Silva (2000,
 /// section III) describe it: cells by the z of their farthest vertex, each held against the others for whether it can
-/// obscure part of them, by tests of increasing difficulty (1 to 3, 1' and 2', 4 and 5, then the definitive one). A
-/// cell that obscures none left is listed; one that is found to be obscured moves to the head of the list. A cell that
+/// occlude part of them, by tests of increasing difficulty (1 to 3, 1' and 2', 4 and 5, then the definitive one). A
+/// cell that occludes none left is listed; one that is found to be occluded moves to the head of the list. A cell that
 /// would move a second time is in a cycle, and the cycle's cells are listed together.
 ///
 /// Exact where the faces are planar, for solids and for surfaces, which may be any set of cells: they need not meet
@@ -56,7 +56,7 @@ private:
         counts
     };
 
-    // How far the search for cells that one cell obscures has come.
+    // How far the search for cells that one cell occludes has come.
     struct Search {
         CellId cell;
         std::uint32_t extent; // of the cell's

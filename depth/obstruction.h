@@ -12,7 +12,7 @@
 
 namespace visorder::detail {
 
-/// What settles whether a cell can obscure part of another.
+/// What settles whether a cell can occlude part of another.
 enum class Settled {
     by_front_plane, ///< it cannot: the other lies in front of the plane of one of its entry faces (test 4)
     by_back_plane,  ///< it cannot: it lies behind the plane of one of the other's exit faces (test 5)
@@ -20,14 +20,14 @@ enum class Settled {
     obstructs ///< it does, by the definitive test
 };
 
-/// Whether one cell can obscure part of another from an eye: the tests of Newell, Newell and Sancha (1972) on the
+/// Whether one cell can occlude part of another from an eye: the tests of Newell, Newell and Sancha (1972) on the
 /// planes of the two cells' faces, then a definitive one, as Max, Williams and Silva (2000, section III) put them. All
 /// decisions are exact, and about each pair of cells alone: cells need no neighbours, and may touch in any way.
 ///
 /// The definitive test: a covers part of b if an exit face of a covers part of an entry face of b, nearer or
 /// coincident. Two convex cells that do not overlap come in one order along all rays through both, so that a pair of
 /// such faces in the other order tells that they do overlap in space; then there is no order of them, and neither
-/// obstructs the other. Two triangles of a surface that cross, or lie in one plane, obstruct each other no more.
+/// occludes the other. Two triangles of a surface that cross, or lie in one plane, occlude each other no more.
 ///
 /// A flat cell occludes nothing itself; its relations to the solid cells on both sides of it (see Adjacency) only place
 /// it between them. So the adjacency is derived only where a scene has flat cells.
@@ -44,7 +44,7 @@ public:
     /// Finds out which faces the eye sees, in parallel. `eye` is finite and not all zero.
     void look_from(const glm::dvec4& eye);
 
-    /// Whether the cell can obscure others at all (a solid with an exit face), or be obscured (one with an entry face).
+    /// Whether the cell can occlude others at all (a solid with an exit face), or be occluded (one with an entry face).
     bool can_obstruct(CellId cell) const
     {
         return is_flat(cell) || seen_[cell].exit != 0 || (scene_.is_surface() && seen_[cell].entry != 0);

@@ -21,8 +21,8 @@ struct PngStyle {
 std::string png_of(const Image& image, const PngStyle& style = {});
 std::string exr_of(const Image& image);
 
-/// Writes an image as PNG, 8 bits a channel, no alpha. What is outside [0, 1] is cut off. Throws InputError, naming the
-/// file, where it cannot be written.
+/// Writes an image as PNG, 8 bits per channel, no alpha. What is outside [0, 1] is cut off. Throws InputError, naming
+/// the file, where it cannot be written.
 void write_png(const Image& image, const std::filesystem::path& file, const PngStyle& style = {});
 
 /// Writes an image as OpenEXR: channels R, G, B, A in single precision, linear and premultiplied as they are. Throws

@@ -71,7 +71,7 @@ void MpvoNc::sort_sources(const View& view)
     radix_sort_.sort(keys_, owners_, sources_);
 }
 
-// The turn of a source lists what it obstructs and no farther source does. So the sets of all turns, last first, are
+// The turn of a source lists what it occludes and no farther source does. So the sets of all turns, last first, are
 // what comes free when the boundary's front-facing faces are taken away nearest first, and the entry faces of a cell
 // with the cell before them: it is free with its last entry face. Within a turn, cells are taken first come, first
 // served, without branches on sides or counts, which a walk down and up again would guess wrong at every other face.

@@ -12,7 +12,7 @@
 namespace visorder::detail {
 
 /// MPVO for nonconvex meshes (Williams 1992; Max, Williams, Silva 2000, section III): the cells with front-facing
-/// exterior faces, farthest first, are where depth-first traversals start that list a cell after all those it obstructs
+/// exterior faces, farthest first, are where depth-first traversals start that list a cell after all those it occludes
 /// across its interior faces. What a far part of the boundary hides is listed before what only nearer parts hide: a
 /// guess at the relations between parts of the mesh that rays leave and come back to.
 ///

@@ -20,7 +20,7 @@ inline constexpr std::uint8_t all = left | right | below | above | behind;
 inline constexpr std::uint8_t off_lattice = 32;
 } // namespace sides
 
-/// The points of a mesh on the screen, computed once a frame, so that all cells around a point agree on where it is.
+/// The points of a mesh on the screen, computed once per frame, so that all cells around a point agree on where it is.
 struct ScreenPoints {
     LargeArray<glm::dvec3> at;      ///< x, y and depth: see ScreenPoint
     LargeArray<glm::ivec2> snapped; ///< x and y in lattice steps, rounded: to tell at once what covers no pixel

@@ -16,7 +16,7 @@ namespace visorder::detail {
 
 namespace {
 
-// Only tetrahedra are asked exactly; a zoo cell without volume shows as one without a sphere.
+// Only tetrahedra are asked exactly; a mixed-element cell without volume shows as one without a sphere.
 bool is_flat(const Mesh& mesh, CellId cell)
 {
     const auto v = mesh.cell(cell);
@@ -84,7 +84,8 @@ glm::dvec3 centre_of(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec
     return centre;
 }
 
-// Four vertices that span a zoo cell: for each shape the first one and three neighbours that see it as a corner.
+// Four vertices that span a mixed-element cell: for each shape the first one and three neighbours that see it as a
+// corner.
 std::array<int, 4> corner_of(CellShape shape)
 {
     switch (shape) {
@@ -115,7 +116,8 @@ Sphere circumsphere(const Mesh& mesh, CellId cell)
     const double square = glm::dot(centre, centre);
     for (int i = 4; i < static_cast<int>(v.size()); ++i) {
         const glm::dvec3 to_centre = point(i) - first - centre;
-        // Vertices of real zoo cells carry the rounding of their coordinates: this asks whether a sphere is meant.
+        // Vertices of real mixed-element cells carry the rounding of their coordinates: this asks whether a sphere is
+        // meant.
         if (!(std::abs(glm::dot(to_centre, to_centre) - square) <= 1e-9 * square))
             return {centre, false};
     }

@@ -11,8 +11,8 @@ namespace visorder::detail {
 /// The power of a point x with respect to cell i's circumsphere is |x - origin|^2 - 2 dot(centre[i], x - origin) +
 /// constant[i]: centres are relative to `origin`, the middle of the scene, and constant = |centre|^2 - radius^2.
 ///
-/// A cell without a circumsphere (flat, or a zoo cell whose vertices lie on no one sphere) gets a stand-in around the
-/// mean of its vertices, with their mean squared distance for a squared radius.
+/// A cell without a circumsphere (flat, or a mixed-element cell whose vertices lie on no one sphere) gets a stand-in
+/// around the mean of its vertices, with their mean squared distance for a squared radius.
 struct Circumspheres {
     glm::dvec3 origin;
     LargeArray<glm::dvec3> centre;

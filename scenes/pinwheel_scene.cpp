@@ -15,7 +15,7 @@ namespace visorder::scenes {
 // p_i, p_(i+1), p_(i+2) and an apex under the middle. Outer points stand so far ahead of the inner points that they are
 // joined to that all the segments p_i p_(i+1) lean the same way and, carried on inwards, pass the middle on the same
 // side. So an eye that looks at the apex through the hole, or from the other side, has all the faces (apex, p_i,
-// p_(i+1)) the same way round, and each cell obstructs the next, around and around. The hole's cone is so wide (its
+// p_(i+1)) the same way round, and each cell occludes the next, around and around. The hole's cone is so wide (its
 // half angle is the arctangent of 2, 63 degrees; 55 suffice) that every direction lies in that of at least one of three
 // rings, one along each axis.
 

@@ -67,7 +67,7 @@ Mesh gear_scene(std::size_t cells, std::uint64_t seed);
 Mesh helical_gear_scene(std::size_t cells, std::uint64_t seed);
 
 /// A block with a square array of straight square channels along z, ever more of them in larger scenes; walls and
-/// channels are two cells wide. A ray across leaves and comes back once a channel. Coordinates are whole numbers.
+/// channels are two cells wide. A ray across leaves and comes back once per channel. Coordinates are whole numbers.
 /// Hexahedra with exactly planar faces. Not convex; face to face; acyclic also when subdivided at lowest vertices.
 Mesh reactor_scene(std::size_t cells, std::uint64_t seed);
 
@@ -77,7 +77,7 @@ Mesh reactor_scene(std::size_t cells, std::uint64_t seed);
 Mesh tori_scene(std::size_t cells, std::uint64_t seed);
 
 /// Three rings of cells, each a cycle that faces show: from every direction, hence from every eye far away, the cells
-/// of at least one ring obstruct each other all the way around. Face to face within each ring; no cells overlap.
+/// of at least one ring occlude each other all the way around. Face to face within each ring; no cells overlap.
 /// Neither convex nor acyclic.
 Mesh pinwheel_scene(std::size_t cells, std::uint64_t seed);
 
@@ -96,7 +96,7 @@ Mesh knot_scene(std::size_t cells, std::uint64_t seed);
 
 /// Rectangles of two triangles each, all of one size, at random places in the unit cube and turned at random. Each
 /// passes through two others on average, however many there are; such triangles have no order. The others, too, may
-/// obstruct each other in cycles.
+/// occlude each other in cycles.
 Mesh cards_scene(std::size_t cells, std::uint64_t seed);
 
 } // namespace visorder::scenes

@@ -160,7 +160,7 @@ public:
             result.overlapping.insert(result.overlapping.end(), found.crossings.begin(), found.crossings.end());
             result.candidates += found.candidates;
         }
-        // A pair is found once a chart and once for every two faces.
+        // A pair is found once per chart and once for every two faces.
         oneapi::tbb::parallel_sort(relations);
         relations.erase(std::unique(relations.begin(), relations.end()), relations.end());
         std::vector<std::pair<CellId, CellId>>& overlapping = result.overlapping;

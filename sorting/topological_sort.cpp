@@ -29,8 +29,8 @@ constexpr std::size_t prefetch_states = 12;
 using Front = TopologicalSort::Front;
 
 // What one frame works on. A cell's state holds, in the lowest `row` bits, the faces across which lie cells that it
-// obstructs no more once listed (its entry faces: what is across them comes later), and above them how many cells that
-// it obstructs are not listed yet. At zero it is ready.
+// occludes no more once listed (its entry faces: what is across them comes later), and above them how many cells that
+// it occludes are not listed yet. At zero it is ready.
 template <int row, class State>
 struct Frame {
     static constexpr State one = State{1} << row;

@@ -530,6 +530,17 @@ private:
                 throw InputError(fmt::format("cell {}: there is no cell type {}", cell, types_[cell]));
             else if (types_[cell] == VTK_POLYHEDRON)
                 check_polyhedron(cell);
+            else
+                check_points(cell);
+    }
+
+    /// VTK takes some numbers that are no points for the end of the list, and says that there are no cells.
+    void check_points(std::size_t cell) const
+    {
+        const std::size_t end = cells_.begins[cell + 1] - (offsets_ ? 0 : 1);
+        for (std::size_t at = cells_.begins[cell]; at < end; ++at)
+            if (cells_.numbers[at] < 0 || static_cast<std::uint64_t>(cells_.numbers[at]) >= points_)
+                throw InputError(fmt::format("cell {}: there is no point {}", cell, cells_.numbers[at]));
     }
 
     /// The numbers of a polyhedron are how many faces it has, and of each how many points, and those.

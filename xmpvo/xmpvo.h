@@ -18,7 +18,7 @@ namespace visorder::detail {
 
 /// Extended MPVO by shooting rays (after Silva, Mitchell, Williams 1998; Max, Williams, Silva 2000, section III): MPVO
 /// with relations between boundary cells. Rays go from the eye through every boundary face and past the crossings of
-/// silhouettes; where one leaves the mesh and comes back, the cell it left obstructs the cell it enters.
+/// silhouettes; where one leaves the mesh and comes back, the cell it left occludes the cell it enters.
 ///
 /// Rays are shot in single precision, so what they find is a proposal, which the exact predicates confirm or not. No
 /// relation is wrong, but one that no ray found is missing. Exact on convex meshes; elsewhere approximate.

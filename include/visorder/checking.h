@@ -72,10 +72,10 @@ private:
 };
 
 /// Holds orders of a scene's cells against all relations of its cells from an eye: across every interior face whose
-/// plane the eye is not in, and from the owner of every exit boundary face to the owner of every entry face that it
-/// covers in part. In a mesh whose cells meet face to face, or touch in any way without overlapping, an order is right
-/// if and only if it satisfies these (Williams 1992; Silva, Mitchell and Williams 1998). In a surface scene, the
-/// relations are all pairs of triangles of which one covers the other.
+/// plane the eye is not in, and from the owner of every back-facing boundary face to the owner of every front-facing
+/// one that it occludes in part. In a mesh whose cells meet face to face, or touch in any way without overlapping, an
+/// order is right if and only if it satisfies these (Williams 1992; Silva, Mitchell and Williams 1998). In a surface
+/// scene, the relations are all pairs of triangles of which one occludes the other.
 ///
 /// Where relations run in cycles, some go unsatisfied, and pairs that one of them would have put in order are tried one
 /// by one: see cycle_crossings.h.

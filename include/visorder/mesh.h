@@ -11,8 +11,8 @@ namespace visorder {
 using CellId = std::uint32_t;
 using PointId = std::uint32_t;
 
-/// The shapes a cell can have: the finite-element zoo, and the triangle of surface scenes. Vertices are numbered as VTK
-/// numbers them within each shape.
+/// The shapes a cell can have: solids of finite-element meshes, and the triangle of surface scenes. Vertices are
+/// numbered as VTK numbers them within each shape.
 enum class CellShape : std::uint8_t { triangle, tetrahedron, pyramid, wedge, hexahedron };
 
 inline constexpr int max_cell_vertices = 8;
@@ -39,7 +39,7 @@ struct Mesh {
     std::vector<CellShape> shapes;
     std::vector<std::uint32_t> offsets;  ///< cell i's vertices are vertices[offsets[i]] up to vertices[offsets[i + 1]]
     std::vector<std::uint32_t> vertices; ///< indices into points, in VTK's vertex order within each shape
-    std::vector<float> scalars;          ///< one a point, or empty
+    std::vector<float> scalars;          ///< one per point, or empty
 
     std::size_t cell_count() const { return shapes.size(); }
     std::span<const std::uint32_t> cell(CellId i) const
@@ -72,11 +72,11 @@ struct Subdivision {
     std::vector<CellId> cell_of; ///< ascending: the parts of one cell stand together, in the order of the cells
 };
 
-/// Consistent subdivision of zoo cells into tetrahedra by the smallest-vertex rule (Max, Williams and Silva 2000,
-/// Approximate volume rendering for curvilinear and unstructured grids by hardware-assisted polyhedron projection,
-/// section IV; a simplification of Nielson and Sung 1997): the diagonal of each quadrilateral starts at its smallest
-/// vertex index, so that two cells that share a quadrilateral always cut it the same way. A pyramid becomes two
-/// tetrahedra, a wedge three, a hexahedron five or six.
+/// Consistent subdivision of mixed-element cells into tetrahedra by the smallest-vertex rule (Max, Williams and Silva
+/// 2000, Approximate volume rendering for curvilinear and unstructured grids by hardware-assisted polyhedron
+/// projection, section IV; a simplification of Nielson and Sung 1997): the diagonal of each quadrilateral starts at its
+/// smallest vertex index, so that two cells that share a quadrilateral always cut it the same way. A pyramid becomes
+/// two tetrahedra, a wedge three, a hexahedron five or six.
 ///
 /// Points and scalars are unchanged; triangles and tetrahedra pass through. The tetrahedra of a cell whose vertices
 /// stand in VTK's order stand in VTK's order too. A collapsed cell (with repeated vertex indices) gives as many

@@ -4,7 +4,7 @@
 
 namespace visorder {
 
-/// One known pair: `front` obstructs `back`, in the inner numbering of a Scene.
+/// One known pair: `front` occludes `back`, in the inner numbering of a Scene.
 struct Relation {
     CellId front;
     CellId back;

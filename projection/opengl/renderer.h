@@ -30,9 +30,9 @@ namespace visorder::detail {
 /// two images of one renderer is the order alone.
 ///
 /// Rays begin at the eye, or, in a parallel view, infinitely far before the scene; near and far plane are ignored. The
-/// scalar is linear in each cell. Positions are computed once a point, in doubles, and each fragment finds out from
+/// scalar is linear in each cell. Positions are computed once per point, in doubles, and each fragment finds out from
 /// them where its ray enters and leaves its cell: no cell is missed and none is hit twice. Memory beyond the scene is
-/// about 33 bytes a point and 5 a cell; triangles go to the renderer in stretches of some ten thousand.
+/// about 33 bytes per point and 5 per cell; triangles go to the renderer in stretches of some ten thousand.
 ///
 /// Holds a reference to the context, which must outlive it. One `draw` at a time, on the context's thread.
 class ProjectionRenderer {

@@ -15,7 +15,7 @@ namespace visorder::detail {
 /// How a triangle of SilhouetteTriangles stands in memory: the same for all three corners but for where they are.
 ///
 /// A vertex's attributes begin with its place. Only the first one's others count, and they may reach into the memory
-/// of the other two: each vector stands once a triangle, and none is fetched through a storage buffer. (Software
+/// of the other two: each vector stands once per triangle, and none is fetched through a storage buffer. (Software
 /// renderers gather whatever is not an attribute or an interpolated value lane by lane, uniforms included.)
 class SilhouetteLayout {
 public:

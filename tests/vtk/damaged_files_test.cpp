@@ -139,6 +139,14 @@ TEST(DamagedFiles, LegacyCountsOfCells)
     expect_legacy_refused(legacy_types, legacy_types + "CELLS 1 5\n4 0 1 2 3\n", "two sections of CELLS");
 }
 
+TEST(DamagedFiles, LegacyPointsOfCells)
+{
+    expect_legacy_refused("4 1 2 3 4", "4 1 2 3 5", "cell 1: there is no point 5");
+    expect_legacy_refused("4 1 2 3 4", "4 1 2 3 4294967300", "cell 1: there is no point 4294967300");
+    expect_legacy_refused("4 0 1 2 3", "4 0 1 2 -1", "cell 0: there is no point -1");
+    expect_legacy_5_refused("1 2 3 4", "1 2 3 4294967300", "cell 1: there is no point 4294967300");
+}
+
 TEST(DamagedFiles, LegacyOffsetsOfCells)
 {
     expect_legacy_5_refused("0 4 8", "0 4 80", "offset 2 is 80");
